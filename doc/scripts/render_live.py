@@ -15,17 +15,16 @@ from selenium.webdriver.common.keys import Keys
 
 TOP = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(TOP / "tests/live"))
+from live_browser import browser  # noqa: E402
 from live_server import Server  # noqa: E402
-from test_live_browser import browser  # noqa: E402
 
-PLACE = (60, -30)  # of the back, from the middle of the canvas [pixels]
+PLACE = (15, -15)  # of the back, from the middle of the canvas [pixels]
 STEPS = 12  # of the way of the pointer, upwards
 
 
 def simulated(page):
     """[s]"""
-    text = page.find_element("id", "strip").text
-    return float(text.split()[2]) if text.startswith("t =") else 0.
+    return float(page.execute_script("return parseFloat((document.querySelector('#numbers dd') || {}).textContent) || 0;"))
 
 
 def wait_for(page, seconds):

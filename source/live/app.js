@@ -5,48 +5,69 @@ import { Panel } from "./panel.js";
 import { Pointer } from "./pointer.js";
 import { View } from "./view.js";
 
-const view = new View(document.getElementById("canvas"));
-let handles = [];
+const find = (id) => document.getElementById(id);
+
+export const view = new View(find("canvas"));
+let scene = null;
+let handles = []; // of the scene: {name, vertices, shift}
+let pins = []; // of the state
+let brush = []; // vertices that were touched
+let hasPulled = false;
 const poses = new Map();
 
-const panel = new Panel((message) => {
-  if (message.type === "reset" || message.type === "undo")
-    panel.forgetPins();
-  if (message.type === "reset")
-    handles.forEach(({ shift }) => shift.set(0, 0, 0));
-  connection.send(message);
-});
+const look = Object.fromEntries([["fit", "home"], ["front", "front"], ["side", "side"], ["top", "top"]].map(([id, name]) => [id, () => view.look(name)]));
+look.ground = () => find("ground").setAttribute("aria-pressed", view.toggleGround());
+look.picture = () => view.savePicture(`exemplar-${scene ? scene.name : "live"}`);
+const panel = new Panel((message) => connection.send(message), look);
 
-function showMarks(pins) {
-  if (view.body)
-    view.showMarks([...handles.map(({ vertices }) => ({ vertices, colour: "#3b82f6" })),
-      ...pins.map((vertices) => ({ vertices, colour: "#e5484d" }))]);
+function showMarks() {
+  view.showMarks([...handles.map(({ name, vertices }) => ({ name, kind: "handle", vertices })),
+    ...pins.map(({ name, vertices }) => ({ name, kind: "pin", vertices })), { name: "brush", kind: "pin", vertices: brush }]);
 }
-panel.onPins = showMarks;
 
 const hear = {
-  scene(scene) {
+  scene(message) {
+    scene = message;
     handles = scene.handles.map((handle) => ({ ...handle, shift: new Vector3() }));
     poses.clear();
+    view.setScene(scene);
     panel.setScene(scene);
   },
+  state(state) {
+    const isOther = JSON.stringify(state.pins) !== JSON.stringify(pins);
+    ({ pins } = state);
+    for (const handle of handles) {
+      const moved = state.handles.find(({ name }) => name === handle.name);
+      handle.shift = new Vector3().fromArray(moved ? moved.shift : [0, 0, 0]);
+    }
+    panel.setState(state);
+    if (isOther)
+      showMarks();
+  },
   status: (status) => panel.showStatus(status),
-  mouse: (mouse) => panel.showMouse(mouse),
+  mouse(mouse) {
+    panel.showMouse(mouse);
+    if (!mouse.yours)
+      pointer.drop();
+  },
   warning: ({ text }) => panel.say(text),
-  refused: ({ text }) => panel.say(text),
+  refused({ text }) {
+    panel.showRefusal(text);
+    if (/^(grab|move|handle): /.test(text))
+      pointer.drop(); // or each place of the pointer would be refused
+  },
   saved: ({ text }) => panel.say(`The pose is in ${text}.`),
 };
 
 function seeFrame(frame) {
   const isFirst = !view.hasPlace;
   view.setPlaces(frame.places);
-  view.setColours(frame.colours);
+  view.body.setColours(frame.colours);
   panel.showLegend(frame);
   if (isFirst) {
-    poses.forEach((places, i) => view.drawPose(places, panel.bars[i].picture));
-    showMarks([...panel.pins.values()]);
+    view.drawPoses([...poses].map(([i, places]) => ({ places, canvas: panel.weights.bars[i].picture })));
+    showMarks();
   }
-  view.moveMarks();
   if (frame.number > 0)
     connection.acknowledge(frame.number);
 }
@@ -62,15 +83,32 @@ const connection = new Connection({
       seeFrame(message);
   },
   change(isOpen) {
+    panel.showConnection(isOpen);
     if (!isOpen)
-      panel.say("The server does not answer. Is it still there?");
-    document.body.dataset.open = isOpen;
+      pointer.drop();
   },
 });
 
-new Pointer(view, connection, {
+const pointer = new Pointer(view, connection, {
   tool: () => panel.tool(),
   strength: () => panel.strength(),
+  mayAct: () => Boolean(panel.hasMouse && panel.state),
+  grabRadius: () => scene.grab_radius,
   handleAt: (corners) => handles.find(({ vertices }) => corners.some((vertex) => vertices.includes(vertex))),
   onPin: (vertices) => panel.addPin(vertices),
+  onBrush(vertices) {
+    brush = vertices;
+    showMarks();
+  },
+  onPull: () => (hasPulled = true),
 });
+
+// Beside the body until it was pulled first, and not while it is held.
+setInterval(() => {
+  find("hint").hidden = hasPulled || !view.hasPlace || !panel.hasMouse || Boolean(pointer.held);
+  if (find("hint").hidden)
+    return;
+  const { center, radius } = view.sphere();
+  const { x, y } = view.onPage(center.clone().addScaledVector(view.eye.up, 0.8 * radius));
+  find("hint").style.transform = `translate(${Math.round(x)}px, ${Math.round(Math.max(110, y))}px)`;
+}, 100);

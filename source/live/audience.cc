@@ -71,7 +71,8 @@ namespace Exemplar::Live
       return false;
     }
     viewers.insert(viewer);
-    viewer->send_text(welcome.text);
+    viewer->send_text(welcome.scene);
+    viewer->send_text(welcome.state);
     for (const Bytes &binary : welcome.binaries)
       viewer->send_binary(binary);
     if (newest != nullptr)
@@ -130,6 +131,8 @@ namespace Exemplar::Live
   void
   Audience::tell(const std::string &text)
   {
+    if (is_state(text))
+      welcome.state = text;
     for (const auto &viewer : std::set<std::shared_ptr<Viewer>>(viewers))
       viewer->send_text(text);
   }

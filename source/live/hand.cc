@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/live/hand.h>
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 namespace Exemplar::Live
@@ -28,34 +27,6 @@ namespace Exemplar::Live
     constexpr double relative_nearness = 1e-5;
 
     constexpr std::size_t max_pins = 100, max_springs = 10;
-
-    double
-    mean(const std::vector<double> &values)
-    {
-      double sum = 0.;
-      for (const double value : values)
-        sum += value;
-      return sum / values.size();
-    }
-
-    double
-    mean_young(const Problem &problem)
-    {
-      std::vector<double> all;
-      for (unsigned int cell = 0; cell < problem.body.mesh.n_cells(); ++cell)
-        all.push_back(problem.body.material.youngs_modulus(cell));
-      return mean(all);
-    }
-
-    SessionEvent
-    before_next_step(const Problem            &problem,
-                     const std::string        &what,
-                     const std::string        &name    = "",
-                     std::vector<unsigned int> nodes   = {},
-                     std::vector<double>       numbers = {})
-    {
-      return { problem.state.step + 1, what, name, std::move(nodes), std::move(numbers) };
-    }
 
     dealii::Point<3>
     place_of(const Problem &problem, const unsigned int node)
@@ -136,13 +107,9 @@ namespace Exemplar::Live
 
   Hand::Hand(const Problem &problem, const BodySurface &surface)
       : surface(surface), diameter(problem.body.mesh.diameter()),
-        stiffness(relative_stiffness * mean_young(problem) * diameter),
+        stiffness(relative_stiffness * young_of(problem).mean * diameter),
         max_way(relative_speed * diameter * problem.parameters.time.step),
-        rest(rest_positions(problem.body.mesh)), bounds{
-          { "young", { 1e-3 * mean_young(problem), 1e3 * mean_young(problem) } },
-          { "poisson", { 0., 0.495 } },
-          { "importance", { 1e-3, 1. } }
-        }
+        rest(rest_positions(problem.body.mesh)), settings(problem)
   {
   }
 
@@ -168,7 +135,7 @@ namespace Exemplar::Live
       return move_handle(command, problem);
     if (command.type == "weights")
       return { held.weights.want(command.numbers, problem) };
-    return set(command, problem);
+    return { set(command, problem) };
   }
 
   Session
@@ -203,6 +170,12 @@ namespace Exemplar::Live
     return events;
   }
 
+  double
+  Hand::grab_radius() const
+  {
+    return relative_radius * diameter;
+  }
+
   void
   Hand::check_place(const std::vector<double> &numbers, const std::size_t first) const
   {
@@ -230,7 +203,7 @@ namespace Exemplar::Live
       throw std::invalid_argument("the strength is not between 0.001 and 1000");
 
     const SurfacePoint point{ command.triangle, { { numbers[0], numbers[1], numbers[2] } } };
-    const auto         patch = patch_around(point, surface, rest, relative_radius * diameter);
+    const auto         patch = patch_around(point, surface, rest, grab_radius());
     const auto         place = place_of(point, surface, problem.state.positions);
     if (command.on)
       return grab_hard(command.name, place, patch, problem);
@@ -303,7 +276,7 @@ namespace Exemplar::Live
     const std::vector<unsigned int> nodes = free_ones(problem, nodes_of(command.vertices));
     if (nodes.empty())
       throw std::invalid_argument("all of this is held already");
-    held.pins.insert(command.name);
+    held.pins[command.name] = nodes;
     return { hold_here(problem, of_pin(command.name), nodes) };
   }
 
@@ -333,18 +306,19 @@ namespace Exemplar::Live
     throw std::invalid_argument("there is no such handle");
   }
 
-  Session
-  Hand::set(const Command &command, const Problem &problem) const
+  SessionEvent
+  Hand::set(const Command &command, const Problem &problem)
   {
-    if (command.type == "gravity" || command.type == "damping")
-      return { before_next_step(problem, command.type, "", {}, command.numbers) };
-    const auto bound = bounds.find(command.name);
-    if (command.type != "set" || bound == bounds.end())
-      throw std::invalid_argument("this cannot be set");
-    const auto &[min, max] = bound->second;
-    if (!(command.numbers[0] >= min && command.numbers[0] <= max))
-      throw std::invalid_argument(
-          fmt::format("{} must be between {} and {}", command.name, min, max));
-    return { before_next_step(problem, command.name, "", {}, command.numbers) };
+    const SessionEvent event = settings.event_of(command, problem);
+    if (command.name == "importance" && !settings.is_without_examples(problem))
+      held.importance = problem.parameters.examples.importance;
+    return event;
+  }
+
+  double
+  Hand::importance_with_examples(const Problem &problem) const
+  {
+    return settings.is_without_examples(problem) ? held.importance
+                                                 : problem.parameters.examples.importance;
   }
 } // namespace Exemplar::Live

@@ -2,45 +2,60 @@
 // What a mouse or a finger does: grabs the body or a handle, brushes a pin, or turns the view.
 
 const NAME = "pointer"; // of the one spring that a page pulls by
+const PINCH = 400; // a second finger that comes so soon turns a pull into a pinch [ms]
 
 export class Pointer {
-  // tool(): "spring", "hard" or "pin"; strength(); handleAt(vertex); onPin(vertices)
-  constructor(view, connection, { tool, strength, handleAt, onPin }) {
-    Object.assign(this, { view, connection, tool, strength, handleAt, onPin });
+  // `wants`: tool(): "spring", "hard" or "pin"; strength(); mayAct(); grabRadius(); handleAt(corners); onPin(vertices); onBrush(vertices); onPull()
+  constructor(view, connection, wants) {
+    Object.assign(this, { view, connection }, wants);
     this.sequence = 0;
     this.held = null;
+    this.over = null; // the last event of a mouse that hovers
+    this.rest = 0; // no look at what is hovered over before this
     const { canvas } = view;
     canvas.addEventListener("pointerdown", (event) => this.down(event));
     canvas.addEventListener("pointermove", (event) => this.move(event));
+    canvas.addEventListener("pointerleave", () => this.leave());
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
       canvas.addEventListener(end, (event) => this.up(event));
     view.onDraw = () => this.follow();
   }
 
   down(event) {
-    if (event.button !== 0 || this.held || event.ctrlKey || event.shiftKey)
+    this.view.canvas.focus({ preventScroll: true }); // from which OrbitControls keeps the browser
+    if (this.held && event.pointerType === "touch" && event.timeStamp - this.held.since < PINCH)
+      return this.letGo(); // both fingers are the view's from now on
+    if (event.button !== 0 || this.held || event.ctrlKey || event.shiftKey || !this.mayAct() || (event.pointerType === "touch" && !event.isPrimary))
       return;
     const hit = this.view.pick(event);
     if (!hit)
       return;
     this.view.controls.enabled = false; // which hears of it after this
     this.view.canvas.setPointerCapture(event.pointerId);
-    const corners = this.view.corners(hit.triangle);
+    const corners = this.view.body.corners(hit.triangle);
     const handle = this.tool() === "pin" ? null : this.handleAt(corners);
     const kind = handle ? "handle" : this.tool();
-    this.held = { kind, hit, handle, id: event.pointerId, from: hit.point, target: hit.point, brush: new Set(corners), changed: false };
+    this.held = { kind, hit, handle, shift: handle ? handle.shift : null, id: event.pointerId, since: event.timeStamp, from: hit.point,
+      target: hit.point, brush: new Set(corners), changed: false };
+    this.show(kind === "pin" ? "brush" : "pull");
     if (kind === "spring" || kind === "hard")
       this.connection.send({ type: "grab", name: NAME, triangle: hit.triangle, on: kind === "hard", sequence: ++this.sequence,
         numbers: [...hit.shares, ...hit.point.toArray(), this.strength()] });
+    else if (kind === "pin")
+      this.onBrush([...this.held.brush]);
   }
 
   move(event) {
-    if (!this.held || event.pointerId !== this.held.id)
+    if (!this.held) {
+      this.over = event.pointerType === "touch" || event.buttons ? null : event;
+      return;
+    }
+    if (event.pointerId !== this.held.id)
       return;
     if (this.held.kind === "pin") {
       const hit = this.view.pick(event);
-      hit && this.view.corners(hit.triangle).forEach((vertex) => this.held.brush.add(vertex));
-      return;
+      hit && this.view.body.corners(hit.triangle).forEach((vertex) => this.held.brush.add(vertex));
+      return this.onBrush([...this.held.brush]);
     }
     const target = this.view.inPlane(event, this.held.from);
     if (target) {
@@ -49,34 +64,94 @@ export class Pointer {
     }
   }
 
+  leave() {
+    this.over = null;
+    if (!this.held)
+      this.show("nothing");
+  }
+
   // Once a frame of the display.
   follow() {
-    const held = this.held;
-    if (!held || held.kind === "pin")
-      return this.view.showSpring(null);
-    this.view.showSpring(this.view.pointOf(held.hit), held.target);
+    const { held, view } = this;
+    view.marks.showSpring(null);
+    if (!held)
+      return this.hover();
+    if (held.kind === "pin")
+      return;
+    const point = view.body.pointOf(held.hit);
+    view.marks.showSpring(point, held.target, view.eye.camera);
+    view.body.showPatch(held.kind === "handle" ? null : point, this.radius());
     if (!held.changed)
       return;
     held.changed = false;
     if (held.kind === "handle")
-      this.connection.send({ type: "handle", name: held.handle.name,
-        numbers: held.target.clone().sub(held.from).add(held.handle.shift).toArray() });
+      this.connection.send({ type: "handle", name: held.handle.name, numbers: this.shiftOf(held).toArray() });
     else
       this.connection.send({ type: "move", name: NAME, numbers: held.target.toArray(), sequence: ++this.sequence });
   }
 
+  shiftOf({ target, from, shift }) {
+    return target.clone().sub(from).add(shift);
+  }
+
+  // What would be taken hold of is shown before it is. A look costs as much as the body is large: it takes a fifth of the time at most.
+  hover() {
+    const { view, over } = this;
+    const begin = performance.now();
+    if (!view.body)
+      return;
+    if (!over || !this.mayAct()) {
+      view.body.showPatch(null);
+      return view.marks.stress(null);
+    }
+    if (begin < this.rest)
+      return;
+    const hit = view.pick(over);
+    const handle = hit && this.tool() !== "pin" ? this.handleAt(view.body.corners(hit.triangle)) : null;
+    this.rest = performance.now() + 4 * (performance.now() - begin);
+    view.body.showPatch(hit && !handle ? hit.point : null, this.radius());
+    view.marks.stress(handle ? handle.name : null);
+    this.show(handle ? "handle" : hit ? (this.tool() === "pin" ? "brush" : "body") : "beside");
+  }
+
+  // A brush touches what is right below it.
+  radius() {
+    return this.tool() === "pin" ? 0.3 * this.grabRadius() : this.grabRadius();
+  }
+
+  // For the shape of the cursor.
+  show(over) {
+    this.view.canvas.dataset.over = over;
+  }
+
   up(event) {
-    const held = this.held;
-    if (!held || event.pointerId !== held.id)
+    if (!this.held || event.pointerId !== this.held.id)
       return;
     this.follow();
+    this.letGo();
+  }
+
+  // What was held is held no more, as the server knows already.
+  drop() {
+    if (this.held && this.held.kind === "pin")
+      this.onBrush([]);
     this.held = null;
     this.view.controls.enabled = true;
+    this.show("nothing");
+    this.view.body && this.view.body.showPatch(null);
+  }
+
+  letGo() {
+    const { held } = this;
+    this.drop();
     if (held.kind === "pin")
       this.onPin([...held.brush]);
-    else if (held.kind === "handle")
-      held.handle.shift.add(held.target).sub(held.from);
-    else
-      this.connection.send({ type: "release", name: NAME });
+    else {
+      if (held.kind === "handle")
+        held.handle.shift = this.shiftOf(held); // until the server says so
+      else
+        this.connection.send({ type: "release", name: NAME });
+      this.onPull();
+    }
   }
 }

@@ -2,10 +2,7 @@
 #include <exemplar/live/simulation.h>
 
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <system_error>
 
@@ -13,46 +10,11 @@ namespace Exemplar::Live
 {
   namespace
   {
-    using Json = nlohmann::json;
-
-    /// Other bytes than UTF-8, in names, are replaced.
+    /// The colour that tells how far the body is from a pose.
     std::string
-    text_of(const Json &json)
+    name_of_pose(const unsigned int pose)
     {
-      return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    }
-
-    Json
-    handles_of(const Problem &problem, const BodySurface &surface)
-    {
-      Json           list = Json::array();
-      const Handles &all  = problem.constraints.handles;
-      for (unsigned int handle = 0; handle < all.size(); ++handle)
-      {
-        Json vertices = Json::array();
-        for (const unsigned int node : all.nodes(handle))
-        {
-          const auto found = std::lower_bound(surface.nodes.begin(), surface.nodes.end(), node);
-          if (found != surface.nodes.end() && *found == node)
-            vertices.push_back(found - surface.nodes.begin());
-        }
-        list.push_back({ { "name", all.name(handle) }, { "vertices", vertices } });
-      }
-      return list;
-    }
-
-    Json
-    names_of_examples(const Problem &problem)
-    {
-      Json names = Json::array();
-      for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)
-      {
-        const std::string &name = problem.examples.poses.name(i);
-        names.push_back(name.find(';') == std::string::npos
-                            ? std::filesystem::path(name).stem().string()
-                            : fmt::format("formula {}", i)); // which is long
-      }
-      return names;
+      return fmt::format("pose {}", pose);
     }
 
     /// Distances from a pose, which is moved to where the body is.
@@ -86,32 +48,13 @@ namespace Exemplar::Live
   Welcome
   Simulation::welcome() const
   {
-    const Problem       &problem    = stage.get_problem();
-    const CompleteScene &parameters = problem.parameters;
-    std::vector<Bytes>   binaries   = { topology_message(surface) };
-    const ExamplePoses  &poses      = problem.examples.poses;
+    const Problem      &problem  = stage.get_problem();
+    std::vector<Bytes>  binaries = { topology_message(surface) };
+    const ExamplePoses &poses    = problem.examples.poses;
     for (unsigned int i = 0; i < poses.size(); ++i)
       binaries.push_back(frame_message({ BinaryKind::pose, i }, surface, poses.pose(i)));
     binaries.push_back(frame_message({}, surface, problem.state.positions));
-    const Json text
-        = { { "type", "scene" },
-            { "name", std::filesystem::path(parameters.name).stem().string() },
-            { "step_size", stage.get_step_size() },
-            { "diameter", problem.body.mesh.diameter() },
-            { "cells", problem.body.mesh.n_cells() },
-            { "vertices", surface.nodes.size() },
-            { "triangles", surface.triangles.size() },
-            { "examples", names_of_examples(problem) },
-            { "handles", handles_of(problem, surface) },
-            { "stiffness", hand.unit_stiffness() },
-            { "young", parameters.material.everywhere.youngs_modulus },
-            { "poisson", parameters.material.everywhere.poissons_ratio },
-            { "importance", parameters.examples.importance },
-            { "finds_weights", parameters.examples.weights == WeightRule::simplex },
-            { "gravity", parameters.loads.gravity },
-            { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } },
-            { "tolerance", parameters.solver.tolerance } };
-    return { text_of(text), binaries };
+    return { scene_text(stage, hand, surface), state_text(stage, hand, surface, wish), binaries };
   }
 
   void
@@ -120,13 +63,15 @@ namespace Exemplar::Live
     bool was_active = false;
     for (bool is_active = false; !mailbox.is_stopped(); was_active = is_active)
     {
-      is_active = mailbox.get_n_viewers() > 0 && (!is_paused || n_single_steps > 0);
+      is_active = mailbox.get_n_viewers() > 0 && (!wish.is_paused || n_single_steps > 0);
       if (is_active && !was_active)
         pace.restart();
       const bool is_due = is_active && pace.is_due();
       const auto until  = is_active ? pace.get_due() : Pace::Clock::now() + std::chrono::seconds(1);
       for (const Command &command : mailbox.take(!is_due, until))
         obey(command);
+      if (state_is_new)
+        show_state();
       if (is_due)
         make_step();
       else if (pace.wants_status())
@@ -138,18 +83,19 @@ namespace Exemplar::Live
   void
   Simulation::obey(const Command &command)
   {
+    state_is_new = state_is_new || command.type != "move"; // a refusal, too, as sliders have moved
     try
     {
       if (command.type == "pause")
-        is_paused = command.on;
+        wish.is_paused = command.on;
       else if (command.type == "step")
-        n_single_steps += is_paused ? 1 : 0;
+        n_single_steps += wish.is_paused ? 1 : 0;
       else if (command.type == "reset")
         begin_anew();
       else if (command.type == "undo")
         undo();
       else if (command.type == "colour")
-        shown.colour = command.name;
+        choose_colour(command.name);
       else if (command.type == "save pose")
         save_pose();
       else if (command.type == "let go of all")
@@ -243,10 +189,11 @@ namespace Exemplar::Live
   void
   Simulation::recover(const std::string &message)
   {
+    state_is_new = true;
     if (n_failures > 2)
     {
       begin_anew();
-      is_paused = true;
+      wish.is_paused = true;
       tell("warning", message + " The body is at its beginning again, and the simulation pauses.");
       return;
     }
@@ -288,19 +235,30 @@ namespace Exemplar::Live
     tell("saved", recording->save_pose(stage.get_problem()).string());
   }
 
+  void
+  Simulation::choose_colour(const std::string &name)
+  {
+    bool is_known = name == "none" || name == "energy" || name == "det F";
+    for (unsigned int i = 0; i < stage.get_problem().examples.poses.size(); ++i)
+      is_known = is_known || name == name_of_pose(i);
+    if (!is_known)
+      throw std::invalid_argument("there is no such colour");
+    wish.colour = name;
+  }
+
   std::vector<double>
   Simulation::colours() const
   {
     Problem &problem = stage.get_problem();
-    if (shown.colour == "energy" || shown.colour == "det F")
+    if (wish.colour == "energy" || wish.colour == "det F")
     {
       const CellResults cells = problem.potential.get_cells().cell_results(problem.state.positions,
                                                                            problem.state.weights);
-      return at_vertices(shown.colour == "energy" ? cells.strain_energy_density : cells.det_F,
+      return at_vertices(wish.colour == "energy" ? cells.strain_energy_density : cells.det_F,
                          problem.body.mesh, surface);
     }
     for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)
-      if (shown.colour == fmt::format("pose {}", i))
+      if (wish.colour == name_of_pose(i))
         return distances(problem.state.positions, problem.examples.poses.pose(i), surface);
     return {};
   }
@@ -315,30 +273,22 @@ namespace Exemplar::Live
   }
 
   void
+  Simulation::show_state()
+  {
+    outbox.text(state_text(stage, hand, surface, wish));
+    state_is_new = false;
+  }
+
+  void
   Simulation::show_status()
   {
-    const Pace::Summary summary = pace.summary();
-    const Problem      &problem = stage.get_problem();
-    const auto          finite = [](const double x) { return std::isfinite(x) ? Json(x) : Json(); };
-    outbox.text(text_of({ { "type", "status" },
-                          { "step", problem.state.step },
-                          { "time", problem.state.time },
-                          { "paused", is_paused },
-                          { "rate", summary.rate },
-                          { "behind", summary.behind },
-                          { "milliseconds", summary.milliseconds },
-                          { "processor_milliseconds", summary.processor },
-                          { "iterations", shown.report.iterations },
-                          { "residual", finite(shown.report.residual) },
-                          { "energy", finite(problem.evaluation.elastic.energy) },
-                          { "min_det_F", finite(problem.evaluation.elastic.min_det_F) },
-                          { "weights", problem.state.weights },
-                          { "weights_by_hand", hand.holds_weights() } }));
+    outbox.text(
+        status_text(stage.get_problem(), hand, shown.report, pace.summary(), wish.is_paused));
   }
 
   void
   Simulation::tell(const std::string &type, const std::string &text) const
   {
-    outbox.text(text_of({ { "type", type }, { "text", text } }));
+    outbox.text(words_text(type, text));
   }
 } // namespace Exemplar::Live

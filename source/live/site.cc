@@ -91,7 +91,9 @@ namespace Exemplar::Live
     };
     add("/", "text/html", page_file("index.html"));
     add("/style.css", "text/css", page_file("style.css"));
-    for (const std::string name : { "app.js", "view.js", "messages.js", "pointer.js", "panel.js" })
+    for (const std::string name :
+         { "app.js", "view.js", "body.js", "camera.js", "ground.js", "marks.js", "messages.js",
+           "latest.js", "pointer.js", "panel.js", "sliders.js", "weights.js", "words.js" })
       add("/" + name, "text/javascript", page_file(name));
     for (const std::string name :
          { "build/three.module.js", "examples/jsm/controls/OrbitControls.js" })

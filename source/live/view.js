@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The body and what is drawn beside it.
 import * as THREE from "./three/build/three.module.js";
-import { OrbitControls } from "./three/examples/jsm/controls/OrbitControls.js";
+import { Body } from "./body.js";
+import { Camera } from "./camera.js";
+import { Ground } from "./ground.js";
+import { Marks } from "./marks.js";
 
-const RAMP = ["#30123b", "#4662d7", "#36aaf9", "#1ae4b6", "#72fe5e", "#c8ef34", "#faba39", "#f66b19", "#ca2a04"]
-  .map((text) => new THREE.Color(text));
-
-function rampColour(byte) {
-  const place = (byte / 255) * (RAMP.length - 1);
-  const below = Math.min(Math.floor(place), RAMP.length - 2);
-  return RAMP[below].clone().lerp(RAMP[below + 1], place - below);
-}
-const TABLE = Array.from({ length: 256 }, (_, byte) => rampColour(byte));
-const PLAIN = new THREE.Color("#e08a3c");
+// Colours are those of style.css.
+const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 export class View {
   constructor(canvas) {
@@ -20,19 +15,17 @@ export class View {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.scene = new THREE.Scene();
-    this.camera = new THREE.PerspectiveCamera(40, 1, 0.01, 100);
-    this.camera.up.set(0, 0, 1);
-    this.light = new THREE.DirectionalLight("#ffffff", 0.75);
-    this.scene.add(new THREE.HemisphereLight("#ffffff", "#8890a0", 0.65), this.light, this.light.target);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.marks = new THREE.Group();
-    this.scene.add(this.marks);
-    this.spring = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: "#e5484d", depthTest: false }));
-    this.spring.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(6), 3));
-    this.spring.frustumCulled = false;
-    this.spring.visible = false;
-    this.scene.add(this.spring);
+    this.eye = new Camera(canvas);
+    this.light = new THREE.DirectionalLight("#ffffff", 0.6);
+    this.sky = new THREE.HemisphereLight("#ffffff", "#8890a0", 0.6);
+    this.marks = new Marks({ handle: colour("handle"), pin: colour("pin"), edge: colour("edge"), spring: colour("spring") });
+    this.ground = new Ground(this.renderer);
+    this.scene.add(this.sky, this.light, this.light.target, this.marks.group, this.marks.spring, this.ground.group);
     this.body = null;
+    this.wantsGround = true;
+    const dark = matchMedia("(prefers-color-scheme: dark)");
+    dark.addListener(() => this.takeColours());
+    this.takeColours();
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     this.resize();
     const draw = () => {
@@ -42,78 +35,74 @@ export class View {
     draw();
   }
 
+  get controls() {
+    return this.eye.controls;
+  }
+
+  takeColours() {
+    this.ground.setColours({ ground: colour("ground"), opacity: Number(colour("ground-opacity")), shadow: Number(colour("shadow-opacity")) });
+  }
+
   resize() {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.camera.aspect = clientWidth / Math.max(1, clientHeight);
-    this.camera.updateProjectionMatrix();
+    this.eye.camera.aspect = clientWidth / Math.max(1, clientHeight);
+    this.eye.camera.updateProjectionMatrix();
+    this.body && this.draw(); // or it would be empty until the next frame
   }
 
   draw() {
-    this.light.position.copy(this.camera.position);
+    this.eye.fly();
+    this.light.position.copy(this.eye.camera.position);
     this.light.target.position.copy(this.controls.target);
     this.onDraw && this.onDraw();
-    this.renderer.render(this.scene, this.camera);
+    if (this.ground.group.visible)
+      this.ground.castShadow();
+    this.renderer.render(this.scene, this.eye.camera);
   }
 
-  setTopology({ nVertices, triangles }) {
+  // Which way is up, before there is a body.
+  setScene({ gravity }) {
+    const down = new THREE.Vector3().fromArray(gravity);
+    this.eye.setUp(down.length() > 0 ? down.normalize().negate() : new THREE.Vector3(0, 0, 1));
+    this.sky.position.copy(this.eye.up);
+  }
+
+  setTopology(topology) {
     if (this.body)
-      this.scene.remove(this.body);
-    const geometry = new THREE.BufferGeometry();
-    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(triangles), 1));
-    for (const name of ["position", "normal", "color"])
-      geometry.setAttribute(name, new THREE.BufferAttribute(new Float32Array(3 * nVertices), 3));
-    this.body = new THREE.Mesh(geometry, new THREE.MeshPhongMaterial(
-      { vertexColors: THREE.VertexColors, side: THREE.DoubleSide, shininess: 15, specular: "#222222" }));
-    this.body.frustumCulled = false;
-    this.scene.add(this.body);
+      this.scene.remove(this.body.mesh);
+    this.body = new Body(topology, colour("body"));
+    this.scene.add(this.body.mesh);
     this.hasPlace = false;
-    this.hasColours = null;
   }
 
   setPlaces(places) {
-    const geometry = this.body.geometry;
-    geometry.attributes.position.array.set(places);
-    geometry.attributes.position.needsUpdate = true;
-    geometry.computeVertexNormals();
-    geometry.boundingSphere = null; // for the ray
-    if (!this.hasPlace) {
-      this.look();
-      this.hasPlace = true;
-    }
+    this.body.setPlaces(places);
+    this.ground.isOld = true;
+    if (this.hasPlace)
+      return this.marks.move(this.body.geometry);
+    this.hasPlace = true; // as the body was at the beginning
+    const { radius } = this.sphere();
+    this.spacing = 0.07 * radius;
+    this.ground.place(this.body.geometry, this.eye.up);
+    this.ground.group.visible = this.wantsGround;
+    this.look("home", true);
   }
 
-  setColours(bytes) {
-    if (!bytes && this.hasColours === false)
-      return;
-    const colours = this.body.geometry.attributes.color;
-    for (let i = 0; i < colours.count; ++i)
-      (bytes ? TABLE[bytes[i]] : PLAIN).toArray(colours.array, 3 * i);
-    colours.needsUpdate = true;
-    this.hasColours = Boolean(bytes);
-  }
-
-  // From the side, so that all of the body is seen.
-  look() {
+  sphere() {
     this.body.geometry.computeBoundingSphere();
-    const { center, radius } = this.body.geometry.boundingSphere;
-    this.radius = radius;
-    this.controls.target.copy(center);
-    const distance = (1.15 * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
-    this.camera.position.copy(center).add(new THREE.Vector3(0.35, -1, 0.3).normalize().multiplyScalar(distance));
-    this.camera.near = 0.01 * radius;
-    this.camera.far = 100 * radius;
-    this.camera.updateProjectionMatrix();
-    this.controls.update();
+    return this.body.geometry.boundingSphere;
   }
 
-  vertex(i) {
-    return new THREE.Vector3().fromArray(this.body.geometry.attributes.position.array, 3 * i);
+  look(name, atOnce = false) {
+    this.body && this.eye.look(name, this.sphere(), atOnce);
   }
 
-  corners(triangle) {
-    const index = this.body.geometry.index.array;
-    return [0, 1, 2].map((a) => index[3 * triangle + a]);
+  toggleGround() {
+    this.wantsGround = !this.wantsGround;
+    this.ground.group.visible = this.wantsGround;
+    this.ground.isOld = true;
+    return this.wantsGround;
   }
 
   // A ray through a place of the window.
@@ -121,83 +110,73 @@ export class View {
     const box = this.canvas.getBoundingClientRect();
     const at = new THREE.Vector2((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height);
     const caster = new THREE.Raycaster();
-    caster.setFromCamera(at, this.camera);
+    caster.setFromCamera(at, this.eye.camera);
     return caster;
   }
 
-  // What of the body is seen there: {triangle, shares, point}; null: nothing.
+  // What of the body is seen there; null: nothing.
   pick(event) {
-    const hit = this.body && this.ray(event).intersectObject(this.body)[0];
-    if (!hit)
-      return null;
-    const [a, b, c] = this.corners(hit.faceIndex).map((i) => this.vertex(i));
-    const shares = new THREE.Triangle(a, b, c).getBarycoord(hit.point, new THREE.Vector3()).toArray().map((x) => Math.max(0, x));
-    const sum = shares[0] + shares[1] + shares[2];
-    return { triangle: hit.faceIndex, shares: shares.map((x) => x / sum), point: hit.point };
+    return this.body && this.hasPlace ? this.body.hit(this.ray(event)) : null;
   }
 
   // Where the pointer is in the plane through a point that faces the camera.
   inPlane(event, point) {
-    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(this.camera.getWorldDirection(new THREE.Vector3()), point);
+    const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(this.eye.camera.getWorldDirection(new THREE.Vector3()), point);
     return this.ray(event).ray.intersectPlane(plane, new THREE.Vector3());
   }
 
-  pointOf({ triangle, shares }) {
-    const point = new THREE.Vector3();
-    this.corners(triangle).forEach((i, a) => point.addScaledVector(this.vertex(i), shares[a]));
-    return point;
+  // Where on the page a point of the body's surroundings is.
+  onPage(point) {
+    const { x, y } = point.clone().project(this.eye.camera);
+    const { clientWidth, clientHeight } = this.canvas;
+    return { x: ((x + 1) / 2) * clientWidth, y: ((1 - y) / 2) * clientHeight };
   }
 
-  showSpring(from, to) {
-    this.spring.visible = Boolean(from);
-    if (!from)
-      return;
-    from.toArray(this.spring.geometry.attributes.position.array, 0);
-    to.toArray(this.spring.geometry.attributes.position.array, 3);
-    this.spring.geometry.attributes.position.needsUpdate = true;
-  }
-
-  // Dots on vertices; `groups` is [{vertices, colour}].
   showMarks(groups) {
-    this.marks.children.slice().forEach((child) => {
-      child.geometry.dispose();
-      this.marks.remove(child);
-    });
-    for (const { vertices, colour } of groups) {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * vertices.length), 3));
-      const points = new THREE.Points(geometry, new THREE.PointsMaterial({ color: colour, size: 5, sizeAttenuation: false }));
-      points.frustumCulled = false;
-      points.userData.vertices = vertices;
-      this.marks.add(points);
-    }
-    this.moveMarks();
+    if (this.body && this.hasPlace)
+      this.marks.set(groups, this.body.geometry, this.spacing);
   }
 
-  moveMarks() {
-    for (const { geometry, userData } of this.marks.children) {
-      userData.vertices.forEach((i, k) => this.vertex(i).toArray(geometry.attributes.position.array, 3 * k));
-      geometry.attributes.position.needsUpdate = true;
-    }
-  }
-
-  // A small picture of other places of the vertices.
-  drawPose(places, canvas) {
-    const before = Float32Array.from(this.body.geometry.attributes.position.array);
-    const size = this.renderer.getSize(new THREE.Vector2());
-    this.marks.visible = false;
-    this.setPlaces(places);
-    const camera = this.camera.clone();
-    this.camera.aspect = canvas.width / canvas.height;
-    this.look();
-    this.renderer.setSize(2 * canvas.width, 2 * canvas.height, false);
-    this.camera.updateProjectionMatrix();
+  // What is seen, on the colour of the page, as a file.
+  savePicture(name) {
+    const { width, height } = this.canvas;
+    const picture = Object.assign(document.createElement("canvas"), { width, height });
+    const pen = picture.getContext("2d");
+    pen.fillStyle = colour("back");
+    pen.fillRect(0, 0, width, height);
     this.draw();
-    canvas.getContext("2d").drawImage(this.renderer.domElement, 0, 0, canvas.width, canvas.height);
-    this.renderer.setSize(size.x, size.y, false);
-    this.camera.copy(camera);
+    pen.drawImage(this.canvas, 0, 0);
+    picture.toBlob((blob) => {
+      const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: `${name}.png` });
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    });
+  }
+
+  // Small pictures of other places of the vertices: [{places, canvas}].
+  drawPoses(poses) {
+    const before = Float32Array.from(this.body.places);
+    const { camera } = this.eye;
+    const kept = { position: camera.position.clone(), target: this.controls.target.clone(), aspect: camera.aspect };
+    for (const part of [this.marks.group, this.ground.group])
+      part.visible = false;
+    for (const { places, canvas } of poses) {
+      this.body.setPlaces(places);
+      this.renderer.setSize(canvas.width, canvas.height, false);
+      camera.aspect = canvas.width / canvas.height;
+      this.look("home", true);
+      this.draw();
+      canvas.getContext("2d").drawImage(this.renderer.domElement, 0, 0, canvas.width, canvas.height);
+    }
+    this.body.setPlaces(before);
+    camera.aspect = kept.aspect;
+    this.look("home", true);
+    camera.position.copy(kept.position);
+    this.controls.target.copy(kept.target);
+    this.controls.update();
+    this.marks.group.visible = true;
+    this.ground.group.visible = this.wantsGround;
+    this.ground.isOld = true;
     this.resize();
-    this.setPlaces(before);
-    this.marks.visible = true;
   }
 }

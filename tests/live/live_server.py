@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "scenes"))
 import exemplar_runner  # noqa: E402
-from exemplar_runner import EXEMPLAR, bend, call_program, prm, wait_until  # noqa: E402, F401
+from exemplar_runner import EXEMPLAR, Msh, bend, call_program, prm, wait_until, write_msh  # noqa: E402, F401
 from live_client import Address  # noqa: E402
 
 # Without weight, and with an example that is bent by a right angle.

@@ -4,37 +4,21 @@ is complained of in the console. Left out where Chromium or selenium is not inst
 
 Environment: EXEMPLAR, the program. SCREENSHOTS, a directory for pictures, may be set.
 """
-import functools
 import os
-import shutil
 import tempfile
 import unittest
 from pathlib import Path
 
-from live_server import BAR, Server, call_program, prm, wait_until
+from live_browser import browser, complaints, needs_browser, wait
+from live_server import BAR, Server, call_program, prm
 
 try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.action_chains import ActionChains
 except ImportError:
-    webdriver = None
-
-CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
-wait = functools.partial(wait_until, seconds=60, pause=.1)  # as each look is work for the browser
+    pass
 
 
-def browser(width=1280, height=800, dark=False):
-    options = webdriver.ChromeOptions()
-    options.binary_location = CHROMIUM
-    for argument in ("--headless=new", "--no-sandbox", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", f"--window-size={width},{height}",
-                     f"--blink-settings=preferredColorScheme={0 if dark else 1}"):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    return webdriver.Chrome(service=Service(DRIVER), options=options)
-
-
-@unittest.skipUnless(webdriver and CHROMIUM and DRIVER, "chromium, chromedriver or selenium is not installed")
+@needs_browser
 class BrowserTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -59,8 +43,7 @@ class BrowserTest(unittest.TestCase):
             return Array.from(pen.getImageData({begin}, 0, {width}, 48).data);""")
 
     def assertNothingInConsole(self, page):
-        self.assertEqual([entry for entry in page.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")
-                          and "GPU stall" not in entry["message"] and "WebGL" not in entry["message"]], [])
+        self.assertEqual(complaints(page), [])
 
     def test_drag(self):
         with Server(self.here / "bar.prm", log=self.here / "log.txt") as server:

@@ -3,12 +3,12 @@
 #define exemplar_live_hand_h
 
 #include <exemplar/live/command.h>
+#include <exemplar/live/settings.h>
 #include <exemplar/live/surface_patch.h>
 #include <exemplar/live/weight_sliders.h>
 #include <exemplar/run/session/session.h>
 
 #include <map>
-#include <set>
 #include <string>
 
 namespace Exemplar::Live
@@ -31,9 +31,10 @@ namespace Exemplar::Live
     /// What is held by hand, by the names that viewers gave.
     struct Held
     {
-      std::map<std::string, Pull> pulls, handles;
-      std::set<std::string>       pins;
-      WeightSliders               weights;
+      std::map<std::string, Pull>                      pulls, handles;
+      std::map<std::string, std::vector<unsigned int>> pins; ///< nodes, ascending
+      WeightSliders                                    weights;
+      double importance = 1.; ///< the last one with which the examples acted
     };
 
     /// Of a scene at its beginning; keeps a reference to `surface`.
@@ -57,10 +58,14 @@ namespace Exemplar::Live
       return !held.pulls.empty();
     }
 
-    bool
-    holds_weights() const
+    /// What the importance is, or was before the examples were put out of action.
+    double
+    importance_with_examples(const Problem &problem) const;
+
+    const Settings &
+    get_settings() const
     {
-      return held.weights.are_in_use();
+      return settings;
     }
 
     const Held &
@@ -83,6 +88,10 @@ namespace Exemplar::Live
       return stiffness;
     }
 
+    /// Of the patch that a pull takes hold of, at rest [m].
+    double
+    grab_radius() const;
+
   private:
     Session
     grab(const Command &command, const Problem &problem);
@@ -94,8 +103,8 @@ namespace Exemplar::Live
     pin(const Command &command, const Problem &problem);
     Session
     move_handle(const Command &command, const Problem &problem);
-    Session
-    set(const Command &command, const Problem &problem) const;
+    SessionEvent
+    set(const Command &command, const Problem &problem);
 
     /// Lets the nodes of a patch follow the pointer, without a spring.
     Session
@@ -112,12 +121,12 @@ namespace Exemplar::Live
     void
     check_place(const std::vector<double> &numbers, std::size_t first) const;
 
-    const BodySurface                                     &surface;
-    const double                                           diameter, stiffness;
-    const double                                           max_way; ///< of a pull in a step [m]
-    const Vector                                           rest;    ///< positions [m]
-    const std::map<std::string, std::pair<double, double>> bounds;  ///< of numbers to set
-    Held                                                   held;
+    const BodySurface &surface;
+    const double       diameter, stiffness;
+    const double       max_way; ///< of a pull in a step [m]
+    const Vector       rest;    ///< positions [m]
+    const Settings     settings;
+    Held               held;
   };
 } // namespace Exemplar::Live
 

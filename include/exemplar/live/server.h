@@ -40,9 +40,9 @@ namespace Exemplar::Live
 
     /// What each viewer gets first.
     void
-    set_welcome(Welcome text)
+    set_welcome(Welcome first)
     {
-      welcome = std::move(text);
+      welcome = std::move(first);
     }
 
     /// False if there are as many as may be.
@@ -59,6 +59,7 @@ namespace Exemplar::Live
     void
     show(const Bytes &frame);
 
+    /// All of them; a state also those who come later.
     void
     tell(const std::string &text);
 

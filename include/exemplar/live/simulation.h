@@ -6,6 +6,7 @@
 #include <exemplar/live/mailbox.h>
 #include <exemplar/live/pace.h>
 #include <exemplar/live/stage.h>
+#include <exemplar/live/told.h>
 
 #include <functional>
 #include <string>
@@ -23,7 +24,8 @@ namespace Exemplar::Live
   /// What a viewer gets first.
   struct Welcome
   {
-    std::string        text; ///< JSON: what doc/live.md calls "scene"
+    std::string        scene; ///< JSON: what doc/live.md calls so
+    std::string        state; ///< the same, and the newest
     std::vector<Bytes> binaries;
   };
 
@@ -75,6 +77,12 @@ namespace Exemplar::Live
     show_frame();
 
     void
+    choose_colour(const std::string &name);
+
+    void
+    show_state();
+
+    void
     show_status();
 
     void
@@ -90,7 +98,6 @@ namespace Exemplar::Live
       SolveReport   report;
       std::uint32_t n_frames = 0;
       std::uint32_t pointer  = 0; ///< the newest place that the body knows
-      std::string   colour   = "none";
     };
 
     Stage                  &stage;
@@ -101,9 +108,10 @@ namespace Exemplar::Live
     std::vector<Hand::Held> held_before; ///< at the moments that the stage keeps
     Pace                    pace;
     Shown                   shown;
-    bool                    is_paused      = false;
-    unsigned int            n_single_steps = 0; ///< to make in a pause
-    unsigned int            n_failures     = 0; ///< one after the other
+    Wish                    wish;
+    bool                    state_is_new   = false; ///< to viewers
+    unsigned int            n_single_steps = 0;     ///< to make in a pause
+    unsigned int            n_failures     = 0;     ///< one after the other
   };
 } // namespace Exemplar::Live
 

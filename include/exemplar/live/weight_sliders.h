@@ -28,6 +28,13 @@ namespace Exemplar::Live
       return !to.empty();
     }
 
+    /// Where they are, or strive to, of all regions; empty: not in use.
+    const std::vector<double> &
+    wanted() const
+    {
+      return to;
+    }
+
   private:
     std::vector<double> at, to; ///< of all regions; empty: not in use
   };

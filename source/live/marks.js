@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rings on vertices that are held, and the line of a pull. Both have dark borders, as they are seen on any colour.
+import * as THREE from "./three/build/three.module.js";
+
+const PIXELS = 64;
+
+// With a dot for what is pinned.
+function ring(colour, edge, hasDot) {
+  const canvas = Object.assign(document.createElement("canvas"), { width: PIXELS, height: PIXELS });
+  const pen = canvas.getContext("2d");
+  const circle = (radius, width, style) => {
+    pen.beginPath();
+    pen.arc(PIXELS / 2, PIXELS / 2, radius, 0, 2 * Math.PI);
+    Object.assign(pen, { lineWidth: width, strokeStyle: style, fillStyle: style });
+    width ? pen.stroke() : pen.fill();
+  };
+  circle(21, 21, edge);
+  circle(21, 10, colour);
+  if (hasDot) {
+    circle(10, 0, edge);
+    circle(6, 0, colour);
+  }
+  return new THREE.CanvasTexture(canvas);
+}
+
+// Some of the vertices, no two of them nearer than that, as rings that touch are none.
+function spaced(vertices, vertexAt, distance) {
+  const places = [];
+  return vertices.filter((vertex) => {
+    const place = vertexAt(vertex);
+    const isFree = places.every((other) => other.distanceToSquared(place) > distance * distance);
+    if (isFree)
+      places.push(place);
+    return isFree;
+  });
+}
+
+export class Marks {
+  constructor(colours) {
+    this.group = new THREE.Group();
+    this.rings = { handle: ring(colours.handle, colours.edge, false), pin: ring(colours.pin, colours.edge, true) };
+    this.spring = new THREE.Group();
+    const rod = new THREE.CylinderBufferGeometry(1, 1, 1, 12);
+    this.spring.add(...[[colours.edge, 2, 4], [colours.spring, 1, 5]].map(([color, width, renderOrder]) => {
+      const mesh = new THREE.Mesh(rod, new THREE.MeshBasicMaterial({ color, depthTest: false, transparent: true }));
+      mesh.scale.set(width, 1, width);
+      return Object.assign(mesh, { renderOrder });
+    }));
+    this.spring.visible = false;
+  }
+
+  // `groups` is [{name, kind, vertices}], at the places and normals of a geometry.
+  set(groups, geometry, distance) {
+    this.group.children.slice().forEach((child) => {
+      child.geometry.dispose();
+      this.group.remove(child);
+    });
+    const vertexAt = (i) => new THREE.Vector3().fromArray(geometry.attributes.position.array, 3 * i);
+    for (const { name, kind, vertices } of groups) {
+      const shown = spaced(vertices, vertexAt, distance);
+      const own = new THREE.BufferGeometry();
+      own.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * shown.length), 3));
+      const points = new THREE.Points(own, new THREE.PointsMaterial(
+        { map: this.rings[kind], size: 14, sizeAttenuation: false, transparent: true, alphaTest: 0.3 }));
+      points.frustumCulled = false;
+      points.renderOrder = 3;
+      points.userData = { name, kind, shown };
+      this.group.add(points);
+    }
+    this.lift = 0.3 * distance;
+    this.move(geometry);
+  }
+
+  // A little above the surface, which would hide half of them.
+  move(geometry) {
+    const { position, normal } = geometry.attributes;
+    for (const { geometry: own, userData } of this.group.children) {
+      const { array } = own.attributes.position;
+      userData.shown.forEach((i, k) => {
+        for (let c = 0; c < 3; ++c)
+          array[3 * k + c] = position.array[3 * i + c] + this.lift * normal.array[3 * i + c];
+      });
+      own.attributes.position.needsUpdate = true;
+    }
+  }
+
+  // The handle under the pointer has larger ones.
+  stress(name) {
+    for (const { material, userData } of this.group.children)
+      material.size = userData.kind === "handle" && userData.name === name ? 20 : 14;
+  }
+
+  // As wide wherever the camera is.
+  showSpring(from, to, camera) {
+    this.spring.visible = Boolean(from) && from.distanceTo(to) > 0;
+    if (!this.spring.visible)
+      return;
+    const width = 0.0016 * camera.position.distanceTo(to);
+    const way = to.clone().sub(from);
+    this.spring.position.lerpVectors(from, to, 0.5);
+    this.spring.scale.set(width, way.length(), width);
+    this.spring.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), way.normalize());
+  }
+}

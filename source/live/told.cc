@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/live/told.h>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
+
+namespace Exemplar::Live
+{
+  namespace
+  {
+    using Json = nlohmann::json;
+
+    /// With this a state begins, so that it is known without being parsed.
+    constexpr std::string_view begin_of_state = R"({"type":"state",)";
+
+    /// Other bytes than UTF-8, in names, are replaced.
+    std::string
+    text_of(const Json &json)
+    {
+      return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+
+    Json
+    vertices_of(const std::vector<unsigned int> &nodes, const BodySurface &surface)
+    {
+      Json vertices = Json::array();
+      for (const unsigned int node : nodes)
+      {
+        const auto found = std::lower_bound(surface.nodes.begin(), surface.nodes.end(), node);
+        if (found != surface.nodes.end() && *found == node)
+          vertices.push_back(found - surface.nodes.begin());
+      }
+      return vertices;
+    }
+
+    Json
+    handles_of(const Problem &problem, const BodySurface &surface)
+    {
+      Json           list = Json::array();
+      const Handles &all  = problem.constraints.handles;
+      for (unsigned int handle = 0; handle < all.size(); ++handle)
+        list.push_back({ { "name", all.name(handle) },
+                         { "vertices", vertices_of(all.nodes(handle), surface) } });
+      return list;
+    }
+
+    Json
+    names_of_examples(const Problem &problem)
+    {
+      Json names = Json::array();
+      for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)
+      {
+        const std::string &name = problem.examples.poses.name(i);
+        names.push_back(name.find(';') == std::string::npos
+                            ? std::filesystem::path(name).stem().string()
+                            : fmt::format("formula {}", i)); // which is long
+      }
+      return names;
+    }
+
+    Json
+    bounds_of(const Hand &hand)
+    {
+      Json bounds = Json::object();
+      for (const auto &[name, bound] : hand.get_settings().get_bounds())
+        bounds[name] = { bound.first, bound.second };
+      return bounds;
+    }
+
+    /// Handles that were dragged, and how far.
+    Json
+    shifts_of(const Hand &hand)
+    {
+      Json list = Json::array();
+      for (const auto &[name, pull] : hand.get_held().handles)
+        list.push_back({ { "name", name }, { "shift", { pull.to[0], pull.to[1], pull.to[2] } } });
+      return list;
+    }
+
+    Json
+    pins_of(const Hand &hand, const BodySurface &surface)
+    {
+      Json list = Json::array();
+      for (const auto &[name, nodes] : hand.get_held().pins)
+        list.push_back({ { "name", name }, { "vertices", vertices_of(nodes, surface) } });
+      return list;
+    }
+
+    /// Those of sliders, one an example; of the first region, as all have the same.
+    Json
+    wanted_weights(const Problem &problem, const Hand &hand)
+    {
+      const std::vector<double> &wanted = hand.get_held().weights.wanted();
+      const std::size_t n = std::min<std::size_t>(wanted.size(), problem.examples.poses.size());
+      return std::vector<double>(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(n));
+    }
+
+    Json
+    settings_of(const Problem &problem, const double young, const double poisson)
+    {
+      const CompleteScene &parameters = problem.parameters;
+      return { { "young", young },
+               { "poisson", poisson },
+               { "importance", parameters.examples.importance },
+               { "gravity", parameters.loads.gravity },
+               { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } } };
+    }
+
+    /// Settings that are means, as cells have several of them.
+    Json
+    means_of(const NumberOfCells &young, const NumberOfCells &poisson)
+    {
+      Json names = Json::array();
+      if (young.varies)
+        names.push_back("young");
+      if (poisson.varies)
+        names.push_back("poisson");
+      return names;
+    }
+  } // namespace
+
+  std::string
+  scene_text(Stage &stage, const Hand &hand, const BodySurface &surface)
+  {
+    const Problem       &problem    = stage.get_problem();
+    const CompleteScene &parameters = problem.parameters;
+    return text_of(
+        { { "type", "scene" },
+          { "name", std::filesystem::path(parameters.name).stem().string() },
+          { "step_size", stage.get_step_size() },
+          { "diameter", problem.body.mesh.diameter() },
+          { "cells", problem.body.mesh.n_cells() },
+          { "vertices", surface.nodes.size() },
+          { "triangles", surface.triangles.size() },
+          { "examples", names_of_examples(problem) },
+          { "handles", handles_of(problem, surface) },
+          { "stiffness", hand.unit_stiffness() },
+          { "grab_radius", hand.grab_radius() },
+          { "young", parameters.material.everywhere.youngs_modulus },
+          { "poisson", parameters.material.everywhere.poissons_ratio },
+          { "importance", parameters.examples.importance },
+          { "bounds", bounds_of(hand) },
+          { "finds_weights", parameters.examples.weights == WeightRule::simplex },
+          { "gravity", parameters.loads.gravity },
+          { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } },
+          { "tolerance", parameters.solver.tolerance },
+          { "saves_poses", stage.get_recording() != nullptr } });
+  }
+
+  std::string
+  state_text(const Stage &stage, const Hand &hand, const BodySurface &surface, const Wish &wish)
+  {
+    const Problem      &problem = stage.get_problem();
+    const NumberOfCells young = young_of(problem), poisson = poisson_of(problem);
+    const Json          state = { { "paused", wish.is_paused },
+                                  { "colour", wish.colour },
+                                  { "undo", stage.n_moments() },
+                                  { "settings", settings_of(problem, young.mean, poisson.mean) },
+                                  { "means", means_of(young, poisson) },
+                                  { "with_examples", !hand.get_settings().is_without_examples(problem) },
+                                  { "importance_with_examples", hand.importance_with_examples(problem) },
+                                  { "weights_by_hand", hand.get_held().weights.are_in_use() },
+                                  { "weights_wanted", wanted_weights(problem, hand) },
+                                  { "handles", shifts_of(hand) },
+                                  { "pins", pins_of(hand, surface) } };
+    return std::string(begin_of_state) + text_of(state).substr(1); // after its brace
+  }
+
+  bool
+  is_state(const std::string &text)
+  {
+    return text.compare(0, begin_of_state.size(), begin_of_state) == 0;
+  }
+
+  std::string
+  status_text(const Problem       &problem,
+              const Hand          &hand,
+              const SolveReport   &report,
+              const Pace::Summary &summary,
+              const bool           is_paused)
+  {
+    const auto finite = [](const double x) { return std::isfinite(x) ? Json(x) : Json(); };
+    return text_of({ { "type", "status" },
+                     { "step", problem.state.step },
+                     { "time", problem.state.time },
+                     { "paused", is_paused },
+                     { "rate", summary.rate },
+                     { "behind", summary.behind },
+                     { "milliseconds", summary.milliseconds },
+                     { "processor_milliseconds", summary.processor },
+                     { "iterations", report.iterations },
+                     { "residual", finite(report.residual) },
+                     { "energy", finite(problem.evaluation.elastic.energy) },
+                     { "min_det_F", finite(problem.evaluation.elastic.min_det_F) },
+                     { "weights", problem.state.weights },
+                     { "weights_by_hand", hand.get_held().weights.are_in_use() } });
+  }
+
+  std::string
+  words_text(const std::string &type, const std::string &words)
+  {
+    return text_of({ { "type", type }, { "text", words } });
+  }
+} // namespace Exemplar::Live

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is set, held and asked for is told by the server: to who joins, to all when it changes, and after Reset, Undo and a refusal.
+
+Environment: EXEMPLAR, the program.
+"""
+import tempfile
+import unittest
+from pathlib import Path
+
+from live_client import Viewer
+from live_server import BAR, Msh, Server, prm, write_msh
+
+
+class StateTest(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        scene = Path(directory.name) / "bar.prm"
+        scene.write_text(prm(BAR))
+        self.server = Server(scene, log=Path(directory.name) / "log.txt")
+        self.addCleanup(self.server.__exit__)
+        self.first = self.viewer()
+
+    def viewer(self):
+        viewer = Viewer(self.server)
+        self.addCleanup(viewer.socket.close)
+        return viewer
+
+    def state(self, viewer):
+        return [text for text in viewer.texts if text["type"] == "state"][-1]
+
+    def wait(self, viewer, is_so):
+        viewer.until(lambda: is_so(self.state(viewer)))
+        return self.state(viewer)
+
+    def at(self, x):
+        """Vertices of a cross section of the bar."""
+        return [i for i, place in enumerate(self.first.frames[0].places) if abs(place[0] - x) < .01]
+
+    def test_who_joins_is_told(self):
+        self.assertEqual([text["type"] for text in self.first.texts[:2]], ["scene", "state"])
+        state, scene = self.state(self.first), self.first.scene
+        self.assertEqual(state["settings"], {name: scene[name] for name in ("young", "poisson", "importance", "gravity", "damping")})
+        self.assertEqual({name: state[name] for name in ("pins", "handles", "colour", "undo", "paused", "weights_by_hand", "weights_wanted", "means")},
+                         {"pins": [], "handles": [], "colour": "none", "undo": 0, "paused": False, "weights_by_hand": False, "weights_wanted": [],
+                          "means": []})
+        self.assertEqual(scene["bounds"]["importance"], [1e-3, 1.])
+        self.assertAlmostEqual(scene["grab_radius"], .1 * scene["diameter"])
+        self.assertFalse(scene["saves_poses"])
+
+    def test_all_are_told_what_changes(self):
+        first, second, middle = self.first, self.viewer(), self.at(2.)
+        for name, value in (("young", 2e6), ("poisson", .45), ("importance", .9)):
+            first.send(type="set", name=name, numbers=[value])
+        first.send(type="gravity", numbers=[0., 0., -1.5])
+        first.send(type="damping", numbers=[3., .001])
+        first.send(type="pin", name="1", vertices=middle)
+        first.send(type="handle", name="left", numbers=[0., 0., .25])
+        first.send(type="weights", numbers=[.25, .75])
+        first.send(type="colour", name="det F")
+        first.send(type="pause", on=True)
+        for viewer in first, second:
+            state = self.wait(viewer, lambda state: state["paused"])
+            self.assertEqual(state["settings"], {"young": 2e6, "poisson": .45, "importance": .9, "gravity": [0., 0., -1.5], "damping": [3., .001]})
+            self.assertEqual(state["pins"], [{"name": "1", "vertices": middle}])
+            self.assertEqual(state["handles"], [{"name": "left", "shift": [0., 0., .25]}])
+            self.assertEqual((state["colour"], state["weights_by_hand"], state["weights_wanted"]), ("det F", True, [.25, .75]))
+        later = self.viewer()
+        self.assertEqual(later.texts[1], state)
+
+    def test_reset(self):
+        before = self.state(self.first)
+        self.first.send(type="gravity", numbers=[0., 0., -1.5])
+        self.first.send(type="set", name="young", numbers=[3e6])
+        self.first.send(type="pin", name="1", vertices=self.at(2.))
+        self.first.send(type="handle", name="left", numbers=[0., 0., .25])
+        self.wait(self.first, lambda state: state["handles"] and state["pins"])
+        self.first.send(type="reset")
+        self.assertEqual(self.wait(self.first, lambda state: not state["pins"]), before)
+
+    def test_undo(self):
+        first, middle = self.first, self.at(2.)
+        first.send(type="pin", name="1", vertices=middle)
+        self.wait(first, lambda state: state["undo"] == 1)
+        first.send(type="set", name="poisson", numbers=[.2])
+        first.send(type="pin", name="2", vertices=self.at(4.) + middle)
+        state = self.wait(first, lambda state: len(state["pins"]) == 2)
+        self.assertEqual(state["pins"][1]["vertices"], self.at(4.))  # the others are held already
+        first.send(type="set", name="young", numbers=[3e6])
+        first.send(type="undo")
+        state = self.wait(first, lambda state: len(state["pins"]) == 1)
+        self.assertEqual((state["undo"], state["settings"]["poisson"], state["settings"]["young"]), (1, .2, 1e6))
+        first.send(type="undo")
+        state = self.wait(first, lambda state: not state["pins"])
+        self.assertEqual((state["undo"], state["settings"]["poisson"]), (0, first.scene["poisson"]))
+        first.send(type="pin", name="1", vertices=middle)  # the name is free again
+        self.wait(first, lambda state: state["pins"])
+        self.assertFalse([text for text in first.texts if text["type"] == "refused"])
+
+    def test_a_refusal_is_followed_by_the_state(self):
+        for message in ({"type": "set", "name": "young", "numbers": [-1.]}, {"type": "colour", "name": "pose 7"}, {"type": "undo"}):
+            self.first.send(**message)
+            self.first.wait_for("refused")
+            self.assertEqual(self.first.wait_for("state")["settings"]["young"], 1e6)
+        self.assertEqual(self.state(self.first)["colour"], "none")
+
+    def test_without_examples_and_back(self):
+        first, second = self.first, self.viewer()
+        self.assertTrue(self.state(first)["with_examples"])
+        first.send(type="set", name="importance", numbers=[.6])
+        first.send(type="set", name="importance", numbers=[first.scene["bounds"]["importance"][0]])
+        for viewer in first, second, self.viewer():
+            state = self.wait(viewer, lambda state: not state["with_examples"])
+            self.assertEqual((state["settings"]["importance"], state["importance_with_examples"]), (1e-3, .6))
+        first.send(type="reset")
+        state = self.wait(first, lambda state: state["with_examples"])
+        self.assertEqual((state["settings"]["importance"], state["importance_with_examples"]), (.8, .8))
+
+    def test_a_mean_is_called_one(self):
+        here = self.server.log.parent
+        nodes = {1: (0, 0, 0), 2: (1, 0, 0), 3: (0, 1, 0), 4: (0, 0, 1), 5: (1, 1, 1)}
+        write_msh(here / "two.msh", Msh(nodes, [(1, 4, 2, 1, 1, 1, 2, 3, 4), (2, 4, 2, 2, 2, 2, 3, 4, 5)], []))
+        scene = here / "two.prm"
+        scene.write_text(prm({**BAR, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None, "Mesh/File": "two.msh",
+                              "Handles/left/Select": "sphere 0 0 0 0.1", "Material/region 2/Young's modulus": "2e6"}))
+        with Server(scene, log=here / "two.txt") as server, Viewer(server) as viewer:
+            self.assertEqual(self.state(viewer)["means"], ["young"])
+            viewer.send(type="set", name="young", numbers=[2e6])
+            self.assertEqual(self.wait(viewer, lambda state: not state["means"])["settings"]["young"], 2e6)
+
+
+if __name__ == "__main__":
+    unittest.main()
