@@ -2,7 +2,6 @@
 // What a mouse or a finger does: grabs the body or a handle, brushes a pin, or turns the view.
 
 const NAME = "pointer"; // of the one spring that a page pulls by
-const PINCH = 400; // a second finger that comes so soon turns a pull into a pinch [ms]
 
 export class Pointer {
   // `wants`: tool(): "spring", "hard" or "pin"; strength(); mayAct(); grabRadius(); handleAt(corners); onPin(vertices); onBrush(vertices); onPull()
@@ -23,7 +22,7 @@ export class Pointer {
 
   down(event) {
     this.view.canvas.focus({ preventScroll: true }); // from which OrbitControls keeps the browser
-    if (this.held && event.pointerType === "touch" && event.timeStamp - this.held.since < PINCH)
+    if (this.held && event.pointerType === "touch")
       return this.letGo(); // both fingers are the view's from now on
     if (event.button !== 0 || this.held || event.ctrlKey || event.shiftKey || !this.mayAct() || (event.pointerType === "touch" && !event.isPrimary))
       return;
@@ -35,7 +34,7 @@ export class Pointer {
     const corners = this.view.body.corners(hit.triangle);
     const handle = this.tool() === "pin" ? null : this.handleAt(corners);
     const kind = handle ? "handle" : this.tool();
-    this.held = { kind, hit, handle, shift: handle ? handle.shift : null, id: event.pointerId, since: event.timeStamp, from: hit.point,
+    this.held = { kind, hit, handle, shift: handle ? handle.shift : null, id: event.pointerId, from: hit.point,
       target: hit.point, brush: new Set(corners), changed: false };
     this.show(kind === "pin" ? "brush" : "pull");
     if (kind === "spring" || kind === "hard")
