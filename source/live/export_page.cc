@@ -3,6 +3,7 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/text_file.h>
+#include <exemplar/base/words.h>
 #include <exemplar/exemplar.h>
 #include <exemplar/live/export_page.h>
 #include <exemplar/live/page_files.h>
@@ -58,6 +59,13 @@ namespace Exemplar::Live
       return fs::is_regular_file(file, none);
     }
 
+    Json
+    number_or_null(const std::string &text)
+    {
+      const double number = parse_number(text);
+      return std::isfinite(number) ? Json(number) : Json();
+    }
+
     /// Columns of statistics.csv that are worth a plot, with the times.
     Json
     plots_of(const fs::path &directory)
@@ -71,14 +79,15 @@ namespace Exemplar::Live
       for (std::istringstream cells(line); std::getline(cells, cell, ',');)
         names.push_back(cell);
       Json columns = Json::object();
+      if (std::find(names.begin(), names.end(), "time") == names.end())
+        return columns;
       while (std::getline(table, line))
       {
-        std::istringstream cells(line);
-        for (const std::string &name : names)
-          if (std::getline(cells, cell, ',')
-              && (name == "time" || name.compare(0, 7, "weight_") == 0
-                  || name.compare(0, 7, "energy_") == 0))
-            columns[name].push_back(std::strtod(cell.c_str(), nullptr));
+        const std::vector<std::string> row = split_trimmed(line, ',');
+        for (std::size_t i = 0; i < names.size() && row.size() == names.size(); ++i)
+          if (names[i] == "time" || names[i].compare(0, 7, "weight_") == 0
+              || names[i].compare(0, 7, "energy_") == 0)
+            columns[names[i]].push_back(number_or_null(row[i]));
       }
       return columns;
     }

@@ -29,6 +29,13 @@ namespace Exemplar::Live
                          [](const fs::path &file) { return fs::exists(file); });
     }
 
+    /// A .geo may take in other files, and gmsh another time: what it gave is kept in its place.
+    bool
+    is_geo(const std::string &key, const std::string &name)
+    {
+      return key == "Mesh/File" && fs::path(name).extension() == ".geo";
+    }
+
     void
     require_regular(const std::string &key, const std::vector<fs::path> &files)
     {
@@ -50,18 +57,46 @@ namespace Exemplar::Live
       return copies;
     }
 
+    /// Calls `fill` for a new folder, which is there whole or not at all.
+    template <typename Fill>
     void
-    copy(const std::vector<fs::path> &files, const fs::path &folder)
+    make_folder(const fs::path &folder, const Fill &fill)
     {
+      const fs::path  unfinished = folder.string() + ".tmp";
       std::error_code error;
-      fs::create_directories(folder, error);
-      for (const fs::path &file : files)
-        if (!error)
-          fs::copy_file(file, folder / file.filename(), fs::copy_options::overwrite_existing,
-                        error);
-      if (error)
+      fs::remove_all(unfinished, error);
+      fs::create_directories(unfinished, error);
+      try
+      {
+        if (error)
+          throw UserError(error.message());
+        fill(unfinished);
+        fs::rename(unfinished, folder);
+      }
+      catch (const std::exception &failure)
+      {
+        fs::remove_all(unfinished, error);
+        fs::remove(folder.parent_path(), error); // if nothing else is in it
         throw UserError("--record: inputs of the scene cannot be copied to " + folder.string()
-                        + ": " + error.message() + ". Give another directory.");
+                        + ": " + failure.what());
+      }
+    }
+
+    void
+    copy(const std::vector<fs::path> &files, const std::string &digest, const fs::path &folder)
+    {
+      if (fs::is_directory(folder))
+        return; // of an earlier recording
+      make_folder(folder,
+                  [&](const fs::path &unfinished)
+                  {
+                    for (const fs::path &file : files)
+                      fs::copy_file(file, unfinished / file.filename());
+                    if (digest_of(copies_in(unfinished, files)) != digest)
+                      throw UserError(
+                          "a file has changed while it was read. Start again when it is "
+                          "saved.");
+                  });
     }
 
     std::string
@@ -85,7 +120,7 @@ namespace Exemplar::Live
   }
 
   std::vector<DeclaredKey>
-  KeptInputs::copy_to(const fs::path &directory) const
+  KeptInputs::copy_to(const fs::path &directory, const MshFile &mesh) const
   {
     std::vector<Named> named = all; // the longest name first, as it may contain another
     std::stable_sort(named.begin(), named.end(),
@@ -93,17 +128,22 @@ namespace Exemplar::Live
     std::vector<DeclaredKey> copied = keys;
     for (const Named &input : named)
     {
-      const fs::path folder = fs::path("inputs") / input.digest.substr(0, 16);
-      const auto     copies = copies_in(directory / folder, input.files);
-      if (!are_there(copies) || digest_of(copies) != input.digest)
-        copy(input.files, directory / folder);
-      if (digest_of(copies) != input.digest)
-        throw UserError(input.key + ": " + input.name
-                        + " has changed while it was read. Start again when it is saved.");
+      const std::string text = is_geo(input.key, input.name) ? msh_text(mesh) : "";
+      const fs::path    folder
+          = fs::path("inputs") / (text.empty() ? input.digest : sha256_of_text(text)).substr(0, 16);
+      fs::path name = fs::path(input.name).filename();
+      if (text.empty())
+        copy(input.files, input.digest, directory / folder);
+      else
+      {
+        name.replace_extension(".msh");
+        if (!fs::is_directory(directory / folder))
+          make_folder(directory / folder,
+                      [&](const fs::path &unfinished) { write_msh(mesh, unfinished / name); });
+      }
       for (DeclaredKey &key : copied)
         if (key.path() == input.key)
-          key.value = replaced(key.value, input.name,
-                               (folder / fs::path(input.name).filename()).string());
+          key.value = replaced(key.value, input.name, (folder / name).string());
     }
     return copied;
   }

@@ -15,7 +15,8 @@ namespace Exemplar::Live
     std::size_t
     room_for(const Command &command)
     {
-      if (command.type == "let go of all") // which the server says, once for a viewer that leaves
+      if (command.type
+          == "let go of all") // which the server says, when the mouse goes to another viewer
         return std::numeric_limits<std::size_t>::max();
       return command.type == "release" ? 2 * max_commands : max_commands;
     }
@@ -33,6 +34,9 @@ namespace Exemplar::Live
         *before = std::move(command);
         return true;
       }
+    if (command.type == "let go of all" && !commands.empty()
+        && commands.back().type == command.type)
+      return true;
     if (commands.size() >= room_for(command))
       return false;
     commands.push_back(std::move(command));

@@ -236,7 +236,8 @@ Exit status:
     int
     serve(const Arguments &arguments)
     {
-      const bool is_run = std::filesystem::is_directory(arguments.shown.front());
+      std::error_code none;
+      const bool      is_run = std::filesystem::is_directory(arguments.shown.front(), none);
       return is_run ? serve_runs(arguments) : serve_scene(arguments);
     }
   } // namespace
@@ -271,8 +272,8 @@ Exit status:
     }
     catch (const std::filesystem::filesystem_error &error)
     {
-      std::cerr << "exemplar: " << trouble_with_path(error) << ". Give another path." << std::endl;
-      return 1;
+      std::cerr << "exemplar: " << trouble_with_path(error) << "." << std::endl;
+      return 2;
     }
     catch (const std::exception &error)
     {

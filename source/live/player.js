@@ -8,7 +8,7 @@
   const COLOURS = ["#1f6feb", "#e5484d", "#2f9e44", "#b45309", "#8250df", "#0e8a93"];
   const BODIES = ["#e08a3c", "#4b8fd8"];
   const HELD = "#1d4ed8", MOVED = "#dc2626";
-  const short = (x) => (x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-2 ? x.toExponential(1) : String(Number(x.toPrecision(3))));
+  const short = (x) => (!Number.isFinite(x) ? "–" : x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-2 ? x.toExponential(1) : String(Number(x.toPrecision(3))));
   const HEAD = 64;
 
   const canvas = find("canvas");
@@ -131,7 +131,7 @@
   // Of plots: one of the weights, one of the energies; the second run is dashed.
   const plots = [["weight_", "Weights of the examples"], ["energy_", "Energies [J]"]].map(([prefix, title]) => ({
     title, lines: runs.flatMap((run, k) => Object.keys(run.plots).filter((column) => column.startsWith(prefix)).map((column) => (
-      { name: nameOf(column, run), run: run.name, dash: k ? [8, 6] : [], times: run.plots.time, values: run.plots[column].map(Number) }))) }))
+      { name: nameOf(column, run), run: run.name, dash: k ? [8, 6] : [], times: run.plots.time, values: run.plots[column].map((v) => (v === null ? NaN : v)) }))) }))
     .filter(({ lines }) => lines.length);
   const colourOf = ({ name }, lines) => COLOURS[[...new Set(lines.map((line) => line.name))].indexOf(name) % COLOURS.length];
   for (const plot of plots) {

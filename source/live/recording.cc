@@ -26,31 +26,40 @@ namespace Exemplar::Live
 
     const std::string remedy = " Give another directory by --record.";
 
+    constexpr unsigned int greatest_of_all = 1000000000;
+
     /// Characters that the value of Time/End takes, so that a longer one replaces it in its place.
     constexpr std::size_t width_of_end = 24;
 
-    /// Whether nothing but meshes is in a directory.
     bool
-    has_meshes_alone(const fs::path &directory)
+    begins_with_bytes(const fs::path &file, const std::string &bytes)
     {
-      const auto is_mesh
-          = [](const fs::directory_entry &entry) { return entry.path().extension() == ".msh"; };
-      return std::all_of(fs::directory_iterator(directory), fs::directory_iterator(), is_mesh);
+      return fs::is_regular_file(fs::symlink_status(file))
+             && read_text_file(file).value_or("").compare(0, bytes.size(), bytes) == 0;
     }
 
-    /// Whether the directory is of a recording, or not there, or holds nothing but meshes, which stay.
+    /// Whether something in a directory is of a recording that has hardly begun, or a mesh, which stays.
+    bool
+    may_be_of_recording(const fs::directory_entry &entry)
+    {
+      const fs::path &path = entry.path();
+      return path.extension() == ".msh" || path.filename() == "inputs"
+             || (path.filename() == "session.txt"
+                 && Exemplar::objection_to(path, head_of_session()).empty())
+             || (path.filename() == "scene.prm.tmp"
+                 && Exemplar::objection_to(path, mark_of_recording).empty());
+    }
+
+    /// Whether the directory is of a recording, or not there, or holds nothing else.
     bool
     is_ours(const fs::path &directory)
     {
       if (is_absent(directory))
         return true;
       return fs::is_directory(directory)
-             && (has_meshes_alone(directory)
-                 || (fs::is_regular_file(directory / "scene.prm")
-                     && read_text_file(directory / "scene.prm")
-                                .value_or("")
-                                .compare(0, mark_of_recording.size(), mark_of_recording)
-                            == 0));
+             && (begins_with_bytes(directory / "scene.prm", mark_of_recording)
+                 || std::all_of(fs::directory_iterator(directory), fs::directory_iterator(),
+                                may_be_of_recording));
     }
 
     /// The greatest number in names like BEGIN0012END in a directory; 0: there is none.
@@ -66,7 +75,8 @@ namespace Exemplar::Live
           continue;
         const auto number = decimal_number<unsigned int>(
             name.substr(begin.size(), name.size() - begin.size() - end.size()));
-        greatest = std::max(greatest, number.value_or(0));
+        if (number && *number < greatest_of_all) // else the next one would begin anew
+          greatest = std::max(greatest, *number);
       }
       return greatest;
     }
@@ -109,18 +119,32 @@ namespace Exemplar::Live
     require_replaceable({ session_file(), head_of_session() }, {}, remedy);
   }
 
+  void
+  Recording::take()
+  {
+    make_directory(directory, remedy);
+    lock.emplace(directory, "--record " + directory.string()
+                                + ": another server records there. Nothing has been changed."
+                                + remedy);
+  }
+
   fs::path
   Recording::set_aside()
   {
-    make_directory(directory, remedy);
     n_poses = std::max(n_poses, greatest_number(directory, "pose_", ".msh"));
     if (is_absent(session_file()))
       return {};
+    if (fs::file_size(session_file()) <= head_of_session().size()) // nothing was done
+    {
+      fs::remove(session_file());
+      return {};
+    }
     const unsigned int number = 1
                                 + std::max(greatest_number(directory, "session_", ".txt"),
                                            greatest_number(directory, "scene_", ".prm"));
     const std::string session = fmt::format("session_{:04}.txt", number);
     const fs::path    kept    = directory / fmt::format("scene_{:04}.prm", number);
+    require_replaceable({ kept, mark_of_recording }, {}, remedy);
     if (const auto text = read_text_file(scene_file()))
       write(kept, for_session(*text, kept, session));
     fs::rename(session_file(), directory / session);
@@ -142,6 +166,7 @@ namespace Exemplar::Live
     text << first_line(scene_file());
     print_keys(text, keys, false);
     place_of_end = text.str().find(end);
+    require_replaceable({ scene_file(), mark_of_recording }, {}, remedy);
     write(scene_file(), text.str());
     scene = std::make_unique<Descriptor>(::open(scene_file().c_str(), O_WRONLY | O_CLOEXEC));
     set_n_steps(0);
@@ -160,6 +185,8 @@ namespace Exemplar::Live
   fs::path
   Recording::save_pose(const Problem &problem)
   {
+    if (!fs::is_directory(directory))
+      throw UserError(directory.string() + " is not there any more.");
     n_poses = std::max(n_poses, greatest_number(directory, "pose_", ".msh"));
     const fs::path                file = directory / fmt::format("pose_{:04}.msh", ++n_poses);
     std::vector<dealii::Point<3>> places;

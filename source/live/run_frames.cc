@@ -134,7 +134,7 @@ namespace Exemplar::Live
   frames_of_run(const fs::path &directory)
   {
     const fs::path animation = directory / "animation.pvd";
-    if (!fs::exists(animation))
+    if (std::error_code none; !fs::exists(animation, none))
       throw UserError(directory.string()
                       + " has no animation.pvd. Give the output directory of a run that has ended, "
                         "with vtu among "

@@ -119,15 +119,17 @@ namespace Exemplar::Live
 
     const std::string unix_prefix = "unix:";
 
-    /// Whether a server answers at a socket of the file system, which a killed one leaves behind without.
+    /// Whether a socket of the file system is one that a killed server has left: nobody listens there.
     bool
-    is_answered(const asio::local::stream_protocol::endpoint &endpoint)
+    is_left_over(const std::string &path)
     {
-      asio::io_context                     context;
-      asio::local::stream_protocol::socket socket(context);
-      beast::error_code                    error;
+      const asio::local::stream_protocol::endpoint endpoint(path);
+      asio::io_context                             context;
+      asio::local::stream_protocol::socket         socket(context, endpoint.protocol());
+      socket.non_blocking(true); // one that is full is answered, too
+      beast::error_code error;
       socket.connect(endpoint, error);
-      return !error;
+      return error == asio::error::connection_refused;
     }
   } // namespace
 
@@ -177,14 +179,16 @@ namespace Exemplar::Live
     if (place.address.compare(0, unix_prefix.size(), unix_prefix) == 0)
     {
       const std::string path = place.address.substr(unix_prefix.size());
-      if (std::filesystem::exists(path) && !std::filesystem::is_socket(path))
-        throw UserError("--bind unix:" + path + ": this is a file. Give another name.");
       if (path.empty() || path.size() > 100)
         throw UserError("--bind unix:PATH takes a path of at most 100 characters.");
-      const asio::local::stream_protocol::endpoint endpoint(path);
-      if (is_answered(endpoint))
+      const auto kind = std::filesystem::symlink_status(path).type();
+      if (kind != std::filesystem::file_type::not_found
+          && kind != std::filesystem::file_type::socket)
+        throw UserError("--bind unix:" + path + ": this is a file. Give another name.");
+      if (kind == std::filesystem::file_type::socket && !is_left_over(path))
         throw UserError("--bind unix:" + path
                         + ": another server listens there. End it, or give another name.");
+      const asio::local::stream_protocol::endpoint endpoint(path);
       unlink(path.c_str());
       acceptor.open(endpoint.protocol());
       const mode_t before = umask(0177); // for its owner alone
@@ -245,6 +249,8 @@ namespace Exemplar::Live
   Server::run()
   {
     context.run();
+    signals.cancel();
+    signals.clear();    // a second one ends the program where a step is long
     audience.dismiss(); // whose sockets must not outlive the context
   }
 } // namespace Exemplar::Live

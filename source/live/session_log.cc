@@ -16,6 +16,7 @@ namespace Exemplar::Live
       throw UserError(name + " cannot be written, which keeps what is done. Give "
                       + (path.empty() ? "a directory by --record." : "another directory."));
     write(head_of_session());
+    flush();
   }
 
   void

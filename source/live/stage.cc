@@ -37,6 +37,10 @@ namespace Exemplar::Live
       {
         throw std::runtime_error(error.what());
       }
+      catch (const std::filesystem::filesystem_error &error) // of a recording that was moved, say
+      {
+        throw std::runtime_error(trouble_with_path(error) + ".");
+      }
     }
   } // namespace
 
@@ -64,8 +68,10 @@ namespace Exemplar::Live
     std::filesystem::path earlier;
     if (recording)
     {
+      recording->take();
+      keys    = kept->copy_to(recording->get_directory(),
+                              contents); // before anything is moved, as it may fail
       earlier = recording->set_aside();
-      keys    = kept->copy_to(recording->get_directory());
     }
     begin_recording();
     return earlier;
@@ -146,10 +152,14 @@ namespace Exemplar::Live
       recording->set_n_steps(moment.state.step); // before the events of later ones go
     done->cut(moment.done);
     make_problem_anew();
-    LastingEvents until_then;
-    done->for_each([&](const SessionEvent &event) { until_then.add(event); });
-    player->catch_up(until_then);
-    problem->resume_from(moment.state, moment.solver_memory.get());
+    end_if_refused(
+        [&]
+        {
+          LastingEvents until_then;
+          done->for_each([&](const SessionEvent &event) { until_then.add(event); });
+          player->catch_up(until_then);
+          problem->resume_from(moment.state, moment.solver_memory.get());
+        });
     return true;
   }
 

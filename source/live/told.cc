@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/live/told.h>
+#include <exemplar/run/output/weight_names.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -54,12 +55,7 @@ namespace Exemplar::Live
     {
       Json names = Json::array();
       for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)
-      {
-        const std::string &name = problem.examples.poses.name(i);
-        names.push_back(name.find(';') == std::string::npos
-                            ? std::filesystem::path(name).stem().string()
-                            : fmt::format("formula {}", i)); // which is long
-      }
+        names.push_back(short_name_of_pose(problem.examples.poses, i));
       return names;
     }
 

@@ -141,9 +141,10 @@ namespace Exemplar
         throw UserError("Mesh/Box cells: these are more than 1e9 tetrahedra (6 a brick), which no "
                         "machine would hold. Give smaller counts.");
       const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE);
-      if (n_tetrahedra * least_bytes > memory)
+      if (memory > 0. && n_tetrahedra * least_bytes > memory)
         throw UserError(fmt::format(
-            "Mesh/Box cells: these are {:.0f} million tetrahedra (6 a brick), which "
+            "Mesh/Box cells: there is not enough memory for {:.0f} million tetrahedra (6 a brick), "
+            "which "
             "need {:.0f} GiB or more; this machine has {:.0f}. Give smaller counts.",
             1e-6 * n_tetrahedra, n_tetrahedra * least_bytes / (1 << 30), memory / (1 << 30)));
     }

@@ -35,7 +35,7 @@ namespace Exemplar
     }
     catch (const std::filesystem::filesystem_error &error)
     {
-      return report(trouble_with_path(error) + ". Give another path.", 1);
+      return report(trouble_with_path(error) + ". What was computed until then is on disk.", 2);
     }
     catch (const Interrupted &interruption)
     {

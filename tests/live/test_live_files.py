@@ -4,6 +4,7 @@ and a server that is killed leaves a recording that plays up to the last finishe
 
 Environment: EXEMPLAR, the program.
 """
+import os
 import re
 import shutil
 import subprocess
@@ -154,6 +155,44 @@ class FilesTest(unittest.TestCase, Recorded):
         self.assertEqual(done.returncode, 1)
         self.assertEqual({file: file.read_bytes() for file in self.record.rglob("*") if file.is_file()}, before)
 
+    def test_start_that_fails_late_changes_nothing(self):
+        with self.serve() as server, Viewer(server) as viewer:
+            drag(viewer, 2)
+        before = {file: file.read_bytes() for file in self.record.rglob("*") if file.is_file()}
+        shutil.copy(self.here / "other.msh", self.mesh)
+        (self.record / "inputs").chmod(0o500)
+        if os.geteuid():  # root may write anywhere
+            self.assertEqual(call_program("live", self.scene, "--record", self.record, timeout=60).returncode, 1)
+        (self.record / "inputs").chmod(0o700)
+        self.assertEqual({file: file.read_bytes() for file in self.record.rglob("*") if file.is_file()}, before)
+        for name in ("inputs/0123456789abcdef.tmp", "inputs"):  # what a killed start has left
+            shutil.rmtree(self.record)
+            (self.record / name).mkdir(parents=True)
+            with self.serve():
+                pass
+
+    def test_second_server_is_refused(self):
+        with self.serve() as server, Viewer(server) as viewer:
+            drag(viewer, 2)
+            done = call_program("live", self.scene, "--record", self.record, timeout=60)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("another server records there", done.stderr)
+            drag(viewer, 2)
+            step, saved = save_pose(viewer)
+        self.assertEqual(pose(self.play_until(step)), pose(saved))
+
+    def test_geo_that_takes_in_another(self):
+        (self.here / "size.geo").write_text("h = 0.5;\n")
+        (self.here / "body.geo").write_text('Include "size.geo";\nSetFactory("OpenCASCADE");\nBox(1) = {0, -.5, -.5, 4, 1, 1};\nMesh.MeshSizeMax = h;\nMesh.MeshSizeMin = h;\n')
+        self.scene.write_text(prm({**BAR, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None, "Mesh/File": "body.geo",
+                                   "Handles/left/Select": "box -1 -1 -1 0.1 1 1"}))
+        with self.serve() as server, Viewer(server) as viewer:
+            drag(viewer, 3)
+            step, saved = save_pose(viewer)
+        for name in ("size.geo", "body.geo"):
+            (self.here / name).unlink()
+        self.assertEqual(pose(self.play_until(step)), pose(saved))
+
     def test_poses_are_not_replaced(self):
         self.record.mkdir()
         (self.record / "pose_0002.msh").write_text("mine")
@@ -227,7 +266,7 @@ class SessionTest(unittest.TestCase):
         for line, words in (("3 | fly | a | | 1", "cannot be done to a body"), ("3 | move | b | | 1 2 3", "no such spring"),
                             ("3 | move | a | | 1 2", "takes 0 nodes and 3 numbers"), ("3 | hold | h | 2 1 | 0 0 0 0 0 0", "ascending order"),
                             ("3 | hold | h | 99999 | 0 0 0", "no node 99999"), ("3 | shift | h | | 0 0 0", "held by hand"),
-                            ("3 | let go | h | | ", "h"), ("3 | young | | | -1", "oung"), ("3 | poisson | | | 0.5", "oisson"),
+                            ("3 | let go | h | | ", "no handle"), ("3 | young | | | -1", "oung"), ("3 | poisson | | | 0.5", "oisson"),
                             ("3 | density | | | 0", "ensity"), ("3 | importance | | | 2", "mportance"), ("3 | weights | | | 1 2 3 4", "weights"),
                             ("3 | damping | | | -1 0", "damping"), ("3 | release | a | |\n3 | release | a | |", "no such spring"),
                             ("3 | grab | a | 0 | 1 0 0 0 4 0 1 -100", "above 0"), ("3 | grab | " + "x" * 1000 + " | 0 | 1 0 0 0 4 0 1 1", "no name of a session"),

@@ -89,7 +89,7 @@ class RecordingTest(unittest.TestCase):
         self.assertEqual((output / "statistics.csv").read_text().splitlines()[-1].split(",")[0], str(self.step))
         self.assertEqual(pose(output / "final.msh"), pose(self.saved))
         rows = [line.count(",") for line in (output / "statistics.csv").read_text().splitlines()]  # also of what was held later
-        self.assertEqual(set(rows), {rows[0]})
+        self.assertEqual(set(rows), {rows[0]}, rows)
         again = self.play("threads", "--threads", "2")
         self.assertEqual((again / "final.msh").read_bytes(), (output / "final.msh").read_bytes())
 

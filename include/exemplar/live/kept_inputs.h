@@ -20,10 +20,11 @@ namespace Exemplar::Live
     explicit KeptInputs(const SceneFile &scene);
 
     /// Copies them to inputs/ in a directory, each into a folder that is named by the content, so that later copies
-    /// replace nothing. Returns the keys of the scene with the names of the copies, relative to the directory. To be
-    /// called after all has been read. Throws UserError if a file has changed meanwhile, or if a copy fails.
+    /// replace nothing; for a .geo, which may take in others, `mesh` is written that it gave. Returns the keys of
+    /// the scene with the names of the copies, relative to the directory. To be called after all has been read.
+    /// Throws UserError, with nothing left behind, if a file has changed meanwhile, or if a copy fails.
     std::vector<DeclaredKey>
-    copy_to(const std::filesystem::path &directory) const;
+    copy_to(const std::filesystem::path &directory, const MshFile &mesh) const;
 
   private:
     /// What a key calls one file or a sequence of them.

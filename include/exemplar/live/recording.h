@@ -3,10 +3,12 @@
 #define exemplar_live_recording_h
 
 #include <exemplar/base/descriptor.h>
+#include <exemplar/base/directory_lock.h>
 #include <exemplar/exemplar.h>
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,11 @@ namespace Exemplar::Live
     /// Looks at the directory and changes nothing. Throws UserError unless it is empty but for meshes, can be made,
     /// or holds an earlier recording.
     Recording(std::filesystem::path directory, double step_size);
+
+    /// Makes the directory and keeps other servers out of it. To be called before all that follows. Throws UserError
+    /// if another one records there.
+    void
+    take();
 
     const std::filesystem::path &
     get_directory() const
@@ -35,7 +42,7 @@ namespace Exemplar::Live
     }
 
     /// Keeps what is recorded so far under names of its own; returns the scene that plays it, or an empty path if
-    /// there is nothing. SessionLog is to begin a new file after this, and save_scene() to be called.
+    /// nothing was done. SessionLog is to begin a new file after this, and save_scene() to be called.
     std::filesystem::path
     set_aside();
 
@@ -58,11 +65,12 @@ namespace Exemplar::Live
       return directory / "scene.prm";
     }
 
-    const std::filesystem::path directory;
-    const double                step_size;
-    unsigned int                n_poses = 0;
-    std::unique_ptr<Descriptor> scene;            ///< open scene.prm
-    std::size_t                 place_of_end = 0; ///< in it, of the value of Time/End [bytes]
+    const std::filesystem::path  directory;
+    const double                 step_size;
+    std::optional<DirectoryLock> lock; ///< of the directory
+    unsigned int                 n_poses = 0;
+    std::unique_ptr<Descriptor>  scene;            ///< open scene.prm
+    std::size_t                  place_of_end = 0; ///< in it, of the value of Time/End [bytes]
   };
 } // namespace Exemplar::Live
 

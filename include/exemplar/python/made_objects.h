@@ -2,8 +2,8 @@
 #ifndef exemplar_made_objects_h
 #define exemplar_made_objects_h
 
+#include <exemplar/exemplar.h>
 #include <exemplar/python/saved_state.h>
-#include <exemplar/solvers/solve_report.h>
 
 #include <pybind11/pybind11.h>
 

@@ -7,6 +7,8 @@
 
 #include <numeric>
 
+#include <algorithm>
+
 namespace Exemplar
 {
   namespace
@@ -36,9 +38,29 @@ namespace Exemplar
     return word == nullptr ? "" : *word;
   }
 
-  Diagnostics::Diagnostics(const Problem &problem, const unsigned int n_handles)
-      : problem(problem), n_handles(n_handles), last_positions(problem.state.positions)
+  Diagnostics::Diagnostics(const Problem &problem, const Columns wanted)
+      : problem(problem), last_positions(problem.state.positions)
   {
+    if (wanted == Columns::of_beginning)
+      for (const StatisticsCell &cell : present_row(problem.state, SolveReport()))
+        columns.push_back(cell.column);
+  }
+
+  StatisticsRow
+  Diagnostics::row(const State &shown, const SolveReport &report) const
+  {
+    StatisticsRow present = present_row(shown, report);
+    if (columns.empty())
+      return present;
+    StatisticsRow row;
+    for (const std::string &column : columns)
+    {
+      const auto cell = std::find_if(present.begin(), present.end(),
+                                     [&](const StatisticsCell &candidate)
+                                     { return candidate.column == column; });
+      row.push_back(cell == present.end() ? StatisticsCell{ column } : *cell);
+    }
+    return row;
   }
 
   void
@@ -79,7 +101,7 @@ namespace Exemplar
   }
 
   StatisticsRow
-  Diagnostics::row(const State &shown, const SolveReport &report) const
+  Diagnostics::present_row(const State &shown, const SolveReport &report) const
   {
     const ElasticEvaluation &elastic          = problem.evaluation.elastic;
     const Mass              *mass             = problem.actions.mass.get();
@@ -115,7 +137,7 @@ namespace Exemplar
     }
     append_work(row);
     const Handles &handles = problem.constraints.handles;
-    for (unsigned int h = 0; h < std::min(n_handles, handles.size()); ++h)
+    for (unsigned int h = 0; h < handles.size(); ++h)
       append(row, "reaction_" + handles.name(h), handles.sum_over(h, problem.evaluation.gradient));
     return row;
   }

@@ -53,7 +53,7 @@ namespace Exemplar
                        const SceneFile                &scene,
                        const std::vector<FrameFormat> &formats)
       : problem(problem), exchange(problem.body.exchange()), scene(scene),
-        diagnostics(problem, problem.parameters.handles.size()),
+        diagnostics(problem, Diagnostics::Columns::of_beginning),
         directory(problem.parameters.output.directory, formats),
         input_digests(digests_at_root(scene, exchange)), account(problem.clock),
         last_checkpoint(std::chrono::steady_clock::now()), frames(problem, directory, formats),

@@ -210,8 +210,11 @@ namespace Exemplar
         json["example_names"].push_back(printable(short_name_of_pose(poses, i)));
       if (problem.body.exchange().n_processes() > 1)
         return; // each has a part of the nodes
-      const Handles &handles = problem.constraints.handles;
-      for (unsigned int handle = 0; handle < handles.size(); ++handle)
+      const Handles    &handles = problem.constraints.handles;
+      const std::size_t n_of_scene
+          = std::min<std::size_t>(problem.parameters.handles.size(), handles.size());
+      for (unsigned int handle = 0; handle < n_of_scene;
+           ++handle) // not those that a session has held
         json["handles"].push_back({ { "name", printable(handles.name(handle)) },
                                     { "nodes", ranges_of(handles.nodes(handle)) } });
     }

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <functional>
 #include <set>
 
 namespace Exemplar
@@ -17,7 +18,7 @@ namespace Exemplar
     {
     public:
       explicit Rehearsal(Problem &problem)
-          : problem(problem), handles(problem.constraints.handles), holding(handles.holding()),
+          : problem(problem), holding(problem.constraints.handles.holding()),
             material(problem.body.material)
       {
       }
@@ -29,7 +30,7 @@ namespace Exemplar
 
       ~Rehearsal()
       {
-        handles.restore(holding);
+        change([this](Handles &handles) { handles.restore(holding); });
       }
 
       /// Throws UserError for what would be refused now.
@@ -53,6 +54,13 @@ namespace Exemplar
       }
 
     private:
+      /// As Problem::change_handles() does it, which also looks at whether a static body may move freely.
+      void
+      change(const std::function<void(Handles &)> &action)
+      {
+        problem.constraints.change_handles(action, problem.parameters, problem.body);
+      }
+
       void
       use_spring(const SessionEvent &event)
       {
@@ -67,25 +75,28 @@ namespace Exemplar
       {
         if (event.what == "hold")
         {
-          for (unsigned int handle = 0; handle < handles.size(); ++handle)
-            if (handles.name(handle) == event.name)
-              handles.let_go(event.name);
-          handles.grab(event.name, event.nodes,
-                       [](const std::vector<dealii::Point<3>> &rest, double)
-                       { return std::vector<dealii::Tensor<1, 3>>(rest.size()); });
+          change(
+              [&](Handles &handles)
+              {
+                for (unsigned int handle = 0; handle < handles.size(); ++handle)
+                  if (handles.name(handle) == event.name)
+                    handles.let_go(event.name);
+                handles.grab(event.name, event.nodes,
+                             [](const std::vector<dealii::Point<3>> &rest, double)
+                             { return std::vector<dealii::Tensor<1, 3>>(rest.size()); });
+              });
           held.insert(event.name);
         }
         else if (event.what == "shift" && held.count(event.name) == 0)
           throw UserError("no such handle was held by hand. One is made by hold.");
         else if (event.what == "let go")
         {
-          handles.let_go(event.name);
+          change([&](Handles &handles) { handles.let_go(event.name); });
           held.erase(event.name);
         }
       }
 
-      const Problem                      &problem;
-      Handles                            &handles;
+      Problem                            &problem;
       const std::vector<Handles::Holding> holding; ///< at the beginning
       Material                            material;
       std::set<std::string>               springs, held; ///< by name

@@ -4,7 +4,6 @@
 
 #include <exemplar/run/problem/problem.h>
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -43,10 +42,16 @@ namespace Exemplar
   class Diagnostics
   {
   public:
-    /// The problem must outlive this. A row has the reactions of its first `n_handles` handles: the rows of a file have
-    /// the same columns also where a session holds more of the body later.
-    explicit Diagnostics(const Problem &problem,
-                         unsigned int   n_handles = std::numeric_limits<unsigned int>::max());
+    /// What columns rows have: those of the problem as it stands, or as it stood in the beginning, for a file, whose rows
+    /// are alike also where a session holds more of the body later, or adds a load.
+    enum class Columns
+    {
+      of_present,
+      of_beginning
+    };
+
+    /// The problem must outlive this. All processes must call this.
+    explicit Diagnostics(const Problem &problem, Columns columns = Columns::of_present);
 
     /// Add the work of the step that the problem has just made. To be called after each.
     void
@@ -85,10 +90,14 @@ namespace Exemplar
     void
     append_dissipated(StatisticsRow &row, const State &shown) const;
 
-    const Problem     &problem;
-    const unsigned int n_handles;
-    Vector             last_positions; ///< before the next step [m]
-    Work               work;
+    /// All that the problem has now.
+    StatisticsRow
+    present_row(const State &shown, const SolveReport &report) const;
+
+    const Problem           &problem;
+    std::vector<std::string> columns;        ///< of rows; empty: those of the present
+    Vector                   last_positions; ///< before the next step [m]
+    Work                     work;
   };
 } // namespace Exemplar
 
