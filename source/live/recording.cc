@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fcntl.h>
 #include <sstream>
@@ -27,6 +28,9 @@ namespace Exemplar::Live
     const std::string remedy = " Give another directory by --record.";
 
     constexpr unsigned int greatest_of_all = 1000000000;
+
+    /// Frames that a session has when it is played, of a second [1/s]: as many as are seen as motion.
+    constexpr double frame_rate = 30.;
 
     /// Characters that the value of Time/End takes, so that a longer one replaces it in its place.
     constexpr std::size_t width_of_end = 24;
@@ -162,6 +166,8 @@ namespace Exemplar::Live
         key.value = end;
       else if (key.path() == "Output/Directory")
         key.value = "output/session";
+      else if (key.path() == "Output/Every" && key.value == key.default_value)
+        key.value = fmt::format("{}", std::max(1L, std::lround(1. / (frame_rate * step_size))));
     std::ostringstream text;
     text << first_line(scene_file());
     print_keys(text, keys, false);

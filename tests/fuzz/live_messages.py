@@ -96,8 +96,12 @@ class Talk:
         """Read frames until the body has gone on by n steps, or the viewer is sent away."""
         try:
             self.viewer.send(type="pause", on=False)
-            self.viewer.wait_steps(n)
+            goal = self.viewer.frames[-1].step + n
+            self.viewer.until(lambda: self.viewer.frames[-1].step >= goal, limit=300)
         except (Closed, OSError):
+            self.come_back()
+        except AssertionError:
+            print("no step:", [{key: value for key, value in text.items() if key != "settings"} for text in self.viewer.texts if text["type"] != "scene"][-3:], flush=True)
             self.come_back()
         bad = [place for frame in self.viewer.frames[-2:] for place in frame.places if not all(map(math.isfinite, place))]
         del self.viewer.frames[:-1], self.viewer.texts[:-50]

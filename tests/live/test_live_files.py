@@ -265,7 +265,7 @@ class SessionTest(unittest.TestCase):
     def test_bad_events(self):
         for line, words in (("3 | fly | a | | 1", "cannot be done to a body"), ("3 | move | b | | 1 2 3", "no such spring"),
                             ("3 | move | a | | 1 2", "takes 0 nodes and 3 numbers"), ("3 | hold | h | 2 1 | 0 0 0 0 0 0", "ascending order"),
-                            ("3 | hold | h | 99999 | 0 0 0", "no node 99999"), ("3 | shift | h | | 0 0 0", "held by hand"),
+                            ("3 | hold | h | 99999 | 0 0 0", "no node 99999"), ("3 | shift | h | | 0 0 0", "held by hand"), ("3 | hold | h | 0 | 0 0 0", "holds node 0 already"),
                             ("3 | let go | h | | ", "no handle"), ("3 | young | | | -1", "oung"), ("3 | poisson | | | 0.5", "oisson"),
                             ("3 | density | | | 0", "ensity"), ("3 | importance | | | 2", "mportance"), ("3 | weights | | | 1 2 3 4", "weights"),
                             ("3 | damping | | | -1 0", "damping"), ("3 | release | a | |\n3 | release | a | |", "no such spring"),

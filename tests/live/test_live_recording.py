@@ -95,7 +95,7 @@ class RecordingTest(unittest.TestCase):
 
     def test_steps_are_those_of_hands(self):
         keys = [line.strip() for line in (self.record / "scene.prm").read_text().splitlines()]
-        for key in ("set Step = 0.016666666666666666", "set Background factor = true", "set Prediction order = 3"):
+        for key in ("set Step = 0.016666666666666666", "set Background factor = true", "set Prediction order = 3", "set Every = 2"):
             self.assertIn(key, keys)
 
     def test_session_is_text(self):

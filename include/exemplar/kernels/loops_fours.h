@@ -9,21 +9,49 @@ namespace Exemplar::Loops
   /// Four numbers of one node or cell; the compiler maps them to the registers that there are.
   using Four = double __attribute__((vector_size(32)));
 
-  /// The same among other doubles. (By memcpy, GCC 12 copies halves and leaves loops rolled.)
+  /// The same among other doubles.
   using FourInMemory = double __attribute__((vector_size(32), aligned(8), may_alias));
+
+  /// A vector from among numbers that are aligned as numbers are. By memcpy, GCC 12 copies halves and leaves loops rolled;
+  /// Clang 14 takes such types for aligned all the same.
+  template <typename InMemory, typename Number, typename Vector>
+  [[gnu::always_inline]] static inline void
+  load_vector(const Number *from, Vector &vector)
+  {
+#ifdef __clang__
+    __builtin_memcpy(&vector, from, sizeof(vector));
+#else
+    vector = *reinterpret_cast<const InMemory *>(from);
+#endif
+  }
+
+  /// Add a vector to such numbers.
+  template <typename InMemory, typename Number, typename Vector>
+  [[gnu::always_inline]] static inline void
+  add_vector(const Vector &vector, Number *to)
+  {
+#ifdef __clang__
+    Vector sum;
+    __builtin_memcpy(&sum, to, sizeof(sum));
+    sum += vector;
+    __builtin_memcpy(to, &sum, sizeof(sum));
+#else
+    *reinterpret_cast<InMemory *>(to) += vector;
+#endif
+  }
 
   // Internal linkage, and references: how Four is passed by value depends on the instruction set.
 
   [[gnu::always_inline]] static inline void
   load_four(const double *from, Four &four)
   {
-    four = *reinterpret_cast<const FourInMemory *>(from);
+    load_vector<FourInMemory>(from, four);
   }
 
   [[gnu::always_inline]] static inline void
   add_four(const Four &four, double *to)
   {
-    *reinterpret_cast<FourInMemory *>(to) += four;
+    add_vector<FourInMemory>(four, to);
   }
 
   /// Rows become columns.

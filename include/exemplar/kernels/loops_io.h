@@ -110,7 +110,9 @@ namespace Exemplar::Loops
     {
       using Floats  = typename Registers<width>::Floats;
       using Doubles = typename Registers<width>::Doubles;
-      return Number(__builtin_convertvector(*reinterpret_cast<const Floats *>(at), Doubles));
+      Floats floats;
+      load_vector<Floats>(at, floats);
+      return Number(__builtin_convertvector(floats, Doubles));
     }
   }
 

@@ -68,7 +68,7 @@ namespace Exemplar::Loops
   add_to(float *sums, const FourFloats (&R)[3])
   {
     for (int part = 0; part < 3; ++part)
-      *reinterpret_cast<FourFloatsInMemory *>(sums + 4 * part) += R[part];
+      add_vector<FourFloatsInMemory>(R[part], sums + 4 * part);
   }
 
   template <typename Number, int n_nodes>

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <functional>
 #include <set>
 
@@ -61,6 +62,22 @@ namespace Exemplar
         problem.constraints.change_handles(action, problem.parameters, problem.body);
       }
 
+      /// Two handles would pull at what both hold.
+      void
+      check_free(const SessionEvent &event) const
+      {
+        const Handles &handles = problem.constraints.handles;
+        const auto     all     = handles.holding();
+        for (unsigned int handle = 0; handle < handles.size(); ++handle)
+          for (const unsigned int node : all[handle].nodes)
+            if (all[handle].holds && handles.name(handle) != event.name
+                && std::binary_search(event.nodes.begin(), event.nodes.end(), node))
+              throw UserError(
+                  fmt::format("handle '{}' holds node {} already. Leave the node out, or "
+                              "let go of that handle before.",
+                              handles.name(handle), node));
+      }
+
       void
       use_spring(const SessionEvent &event)
       {
@@ -75,6 +92,7 @@ namespace Exemplar
       {
         if (event.what == "hold")
         {
+          check_free(event);
           change(
               [&](Handles &handles)
               {

@@ -6,8 +6,9 @@
 
 namespace Exemplar
 {
-  /// What the making of a mesh has come to, and in which attempt, from 1.
-  struct MeshingPoint
+  /// What the making of a mesh has come to, and in which attempt, from 1. Its alignment lets every compiler write it at
+  /// once for another process to read.
+  struct alignas(8) MeshingPoint
   {
     MeshingStage   stage   = MeshingStage::checking;
     unsigned short attempt = 1;
