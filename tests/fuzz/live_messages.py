@@ -94,15 +94,16 @@ class Talk:
 
     def listen(self, n):
         """Read frames until the body has gone on by n steps, or the viewer is sent away."""
-        try:
-            self.viewer.send(type="pause", on=False)
-            goal = self.viewer.frames[-1].step + n
-            self.viewer.until(lambda: self.viewer.frames[-1].step >= goal, limit=300)
-        except (Closed, OSError):
-            self.come_back()
-        except AssertionError:
-            print("no step:", [{key: value for key, value in text.items() if key != "settings"} for text in self.viewer.texts if text["type"] != "scene"][-3:], flush=True)
-            self.come_back()
+        goal = self.viewer.frames[-1].step + n
+        for _ in range(5):  # a step that fails three times pauses the body at its beginning, of step 0
+            try:
+                self.viewer.send(type="pause", on=False)
+                self.viewer.until(lambda: self.viewer.frames[-1].step >= min(goal, n), limit=20)
+                break
+            except AssertionError:
+                continue
+            except (Closed, OSError):
+                self.come_back()
         bad = [place for frame in self.viewer.frames[-2:] for place in frame.places if not all(map(math.isfinite, place))]
         del self.viewer.frames[:-1], self.viewer.texts[:-50]
         return bool(bad)

@@ -106,8 +106,9 @@ namespace Exemplar::Testing
       expect_contains(error_in_copy<SolverFailure>(
                           []() -> std::string
                           {
+                            volatile unsigned int count = 0; // an endless loop has to do something
                             for (;;)
-                              ;
+                              count = count + 1;
                           },
                           0.2),
                       "The work did not come to an end within 0.2 s of processor time and was");
