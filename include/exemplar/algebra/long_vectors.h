@@ -37,6 +37,7 @@ namespace Exemplar
   class MaxMagnitude
   {
   public:
+    /// One more number.
     void
     add(const double number)
     {
