@@ -76,6 +76,23 @@ def sphere(times, radius=1.):
     return [tuple(radius * x / r for x in v) for v, r in zip(vertices, lengths)], faces
 
 
+def crumpled(n):
+    """A bumpy ball of n x n quads whose relief does not vanish at the poles, where 22 sharp folds meet."""
+    def place(i, j):
+        theta, phi = math.pi * i / n, 2 * math.pi * j / n
+        r = 1 + .05 * math.sin(9 * theta) * math.sin(11 * phi) + .002 * math.sin(80 * theta) * math.sin(90 * phi)
+        return (r * math.sin(theta) * math.cos(phi), r * math.sin(theta) * math.sin(phi), r * math.cos(theta))
+    vertices = [place(i, j) for i in range(1, n) for j in range(n)] + [(0, 0, 1), (0, 0, -1)]
+    north, south, last = len(vertices) - 2, len(vertices) - 1, (n - 2) * n
+    faces = []
+    for j in range(n):
+        k = (j + 1) % n
+        for i in range(0, last, n):
+            faces += [(i + j, i + n + j, i + k), (i + k, i + n + j, i + n + k)]
+        faces += [(north, j, k), (south, last + k, last + j)]
+    return vertices, faces
+
+
 def divided(vertices, faces):
     """Each triangle in four; also {edge: its middle vertex}."""
     vertices, middles, small = list(vertices), {}, []

@@ -61,6 +61,11 @@ class MeshCommandTest(SceneTest):
             self.assertGreater(table["angle_smallest"], 8)
             vertices, faces, _ = surfaces.divided(vertices, faces)
 
+    def test_folds_nearer_to_each_other_than_cells_are_large(self):
+        """Edges that must follow all folds that meet at a pole intersect, or leave slivers."""
+        self.surface("crumpled.obj", *surfaces.crumpled(100))
+        self.assertEqual(self.made("crumpled.obj", 5000)["slivers"], 0)
+
     def test_what_another_has_made_stays(self):
         self.surface("box.obj", *surfaces.cube())
         self.made("box.obj", 300)

@@ -9,7 +9,10 @@
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 namespace Exemplar
 {
@@ -17,8 +20,10 @@ namespace Exemplar
 
   namespace
   {
-    constexpr double       sharp_angle  = 60.; // degrees
-    constexpr double       min_chain    = 5.;  // edge lengths
+    constexpr double sharp_angle = 60.; // degrees
+    constexpr double min_chain   = 5.;  // edge lengths
+    constexpr double max_crowd
+        = 8.; // edge lengths in a cube of that side; corners of solids have 3
     constexpr unsigned int n_iterations = 5;
     constexpr double       tip_spacing  = .5; // edge lengths
 
@@ -32,11 +37,35 @@ namespace Exemplar
                         from_cgal(mesh.point(mesh.vertex(edge, 1)))));
     }
 
+    /// Let go of kept edges where many are nearer to each other than the new edges are long: no triangles
+    /// of that size fit between them, and those that must follow all of them intersect.
+    void
+    drop_crowded_edges(const CgalMesh &mesh, const double edge_length, Kept &kept)
+    {
+      const auto cube_of = [&](const CgalMesh::Edge_index edge)
+      {
+        const auto            a = from_cgal(mesh.point(mesh.vertex(edge, 0)));
+        const auto            b = from_cgal(mesh.point(mesh.vertex(edge, 1)));
+        std::array<double, 3> cube{};
+        for (unsigned int i = 0; i < 3; ++i)
+          cube[i] = std::floor(.5 * (a[i] + b[i]) / edge_length);
+        return cube;
+      };
+      std::map<std::array<double, 3>, double> lengths;
+      for (const auto edge : mesh.edges())
+        if (kept[edge])
+          lengths[cube_of(edge)] += std::min(length_of(mesh, edge), edge_length);
+      for (const auto edge : mesh.edges())
+        if (kept[edge] && lengths[cube_of(edge)] > max_crowd * edge_length)
+          kept[edge] = false;
+    }
+
     /// Sharp edges that hang together over a length that is seen.
     void
     keep_sharp_edges(const CgalMesh &mesh, const double edge_length, Kept &kept)
     {
       PMP::detect_sharp_edges(mesh, sharp_angle, kept);
+      drop_crowded_edges(mesh, edge_length, kept);
       UnionFind chains(mesh.number_of_vertices());
       for (const auto edge : mesh.edges())
         if (kept[edge])

@@ -107,6 +107,16 @@ namespace Exemplar
           marked[t] = true;
     }
 
+    std::string
+    place_of_crossing(const TriangleSurface &surface)
+    {
+      const auto crossing = self_intersections(surface);
+      if (crossing.empty())
+        return "";
+      const auto &[x, y, z] = middle_of(surface, crossing.front().first);
+      return " near " + short_text(x) + ", " + short_text(y) + ", " + short_text(z);
+    }
+
     /// With the triangles held that are near to intersections, of `evenly` first and then of what came of
     /// that; none if that does not help.
     std::optional<TriangleSurface>
@@ -157,8 +167,9 @@ namespace Exemplar
       if (result)
         return { std::move(*result), true };
     }
-    throw SolverFailure("The surface intersects itself when its edges become "
-                        + short_text(edge_length) + " long. Ask for more cells (" + cells_option
-                        + "), or thicken its thin parts.");
+    throw SolverFailure("The surface intersects itself" + place_of_crossing(evenly)
+                        + " when its edges become " + short_text(edge_length)
+                        + " long. Ask for more cells (" + cells_option
+                        + "), or thicken its thin parts there.");
   }
 } // namespace Exemplar
