@@ -228,8 +228,15 @@ namespace Exemplar
           "Examples/Weight penalty = '" + weight_penalty
           + "' is not allowed. Allowed: auto, paper, weak or a number not less than 0 [J].");
     if (weights == WeightRule::prescribed && in_use() && prescribed_weights.empty())
-      throw UserError("Examples/Weights = prescribed, but Examples/Prescribed weights is empty. "
-                      "Give one function of t for each example, for instance '1-t; t'.");
+      throw UserError(
+          n_examples() == 1
+              ? "Examples/Prescribed weights is empty, and there is one example: its weight would "
+                "always "
+                "be 1. Give another example, or set Examples/Include rest pose = true, and "
+                "Examples/Prescribed weights = 1-t; t."
+              : "Examples/Weights = prescribed, but Examples/Prescribed weights is empty. Give one "
+                "function "
+                "of t for each example, for instance '1-t; t'.");
     for (const std::string &map : weight_maps)
       split_map_name(map, "Examples/Weight maps");
     if (!weight_maps.empty() && weights_per_region)

@@ -154,9 +154,10 @@ namespace Exemplar
     {
       if (const std::size_t n = split_trimmed(list, ';').size(); n < poses.size())
         throw UserError(
-            fmt::format("{} = '{}' has {} weights for {} examples: example {} ({}) lacks one. "
-                        "Write one for each, separated by ';'. The examples are {}.",
-                        key, list, n, poses.size(), n, poses.name(n), names_of_examples(poses)));
+            fmt::format("{} = '{}' has {} {} for {} examples: example {} ({}) lacks one. "
+                        "Write one for each, separated by ';', not by commas. The examples are {}.",
+                        key, list, n, n == 1 ? "weight" : "weights", poses.size(), n, poses.name(n),
+                        names_of_examples(poses)));
       prescribed.emplace_back(key, list, "t", poses.size());
     }
   }

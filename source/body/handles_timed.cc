@@ -5,6 +5,7 @@
 #include <exemplar/body/handles.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 // Handles with a time: they let go and catch between steps. Which hold is a function of the time at which a
@@ -18,9 +19,12 @@ namespace Exemplar
     for (unsigned int step = 0; step < axis.n_steps(); ++step)
       if (handle.time.holds(axis.time(step), rounding))
         return {};
-    return "Handles/" + handle.name + " holds in no step: none begins between From = "
-           + shortest_text(handle.time.from) + " and Until = " + shortest_text(handle.time.until)
-           + " s. Times of a scene that is not dynamic go from 0 to 1.";
+    const std::string when = std::isfinite(handle.time.until)
+                                 ? " between From = " + shortest_text(handle.time.from)
+                                       + " and Until = " + shortest_text(handle.time.until)
+                                 : " at From = " + shortest_text(handle.time.from) + " or later";
+    return "Handles/" + handle.name + " holds in no step: none begins" + when
+           + ". Times of this scene go from 0 to " + shortest_text(axis.time(axis.n_steps())) + ".";
   }
 
   bool

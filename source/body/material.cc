@@ -43,11 +43,11 @@ namespace Exemplar
       const auto check = [&](const std::string &name, const double value, const bool is_allowed)
       {
         if (!is_allowed)
-          throw UserError(
-              fmt::format("Material/{}{}: the {}. cell would get {}. Young's modulus and density "
-                          "must be greater than 0, Poisson's ratio between -1 and 0.5.{}",
-                          name, origin, cell + 1, shortest_text(value),
-                          origin.empty() ? "" : " Change the map, or how it is used."));
+          throw UserError(fmt::format(
+              "Material/{}{}: cell {}, counted from 0, would get {}. Young's modulus and density "
+              "must be greater than 0, Poisson's ratio above -1 and below 0.5.{}",
+              name, origin, cell, shortest_text(value),
+              origin.empty() ? "" : " Change the map, or how it is used."));
       };
       check("Young's modulus", values.youngs_modulus, values.youngs_modulus >= 1e-300);
       check("Density", values.density, values.density >= 1e-300);

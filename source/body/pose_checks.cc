@@ -127,7 +127,10 @@ namespace Exemplar
   }
 
   std::string
-  describe_pose(const Mesh &mesh, const FESpace &fe_space, const dealii::Vector<double> &positions)
+  describe_pose(const Mesh                   &mesh,
+                const FESpace                &fe_space,
+                const dealii::Vector<double> &positions,
+                const bool                    may_be_rest)
   {
     const PoseMeasures pose  = measure(mesh, fe_space, positions);
     const std::string  ratio = short_text(pose.size_ratio);
@@ -142,7 +145,7 @@ namespace Exemplar
              + " times as large as the rest pose. If its unit of length is another one, scale it.";
     if (!pose.inverted.empty())
       return describe_inverted(pose, mesh.whole().n_cells);
-    if (pose.max_strain < rigid_tolerance)
+    if (!may_be_rest && pose.max_strain < rigid_tolerance)
       return "is the rest pose, moved rigidly at most: it has no strain, and pulls the body "
              "nowhere.";
     return "";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/nearest_word.h>
 #include <exemplar/exemplar.h>
 #include <exemplar/live/export_page.h>
 #include <exemplar/live/server.h>
@@ -233,6 +234,30 @@ Exit status:
       return 130;
     }
 
+    /// What CLI11 says, but of options that it does not know; without the full stop.
+    std::string
+    in_own_words(const CLI::ParseError &error)
+    {
+      const std::string what = error.what(), of_extras = "not expected: ";
+      const std::size_t begin = what.find(of_extras);
+      if (dynamic_cast<const CLI::ExtrasError *>(&error) == nullptr || begin == std::string::npos)
+        return what;
+      std::string option = what.substr(begin + of_extras.size());
+      option.resize(std::min(option.find_first_of(" ="), option.size()));
+      std::string message = in_quotes(option) + " is not understood by exemplar live";
+      if (option == "--output" || option == "--session")
+        return message
+               + ". What is done is recorded by --record DIRECTORY, as a scene that exemplar runs";
+      if (option == "--validate" || option == "--resume" || option == "--html")
+        return message
+               + ". Without the word live: exemplar SCENE.prm --validate or --resume; exemplar "
+                 "export OUTPUT --html FILE.html";
+      const std::string nearest
+          = nearest_word(option, { "--set", "--port", "--bind", "--allow-host", "--record",
+                                   "--threads", "--until-input-ends" });
+      return nearest.empty() ? message : message + ". Did you mean '" + nearest + "'?";
+    }
+
     int
     serve(const Arguments &arguments)
     {
@@ -261,8 +286,8 @@ Exit status:
     }
     catch (const CLI::ParseError &error)
     {
-      std::cerr << "exemplar: " << error.what() << ". exemplar live --help lists the options."
-                << std::endl;
+      std::cerr << "exemplar: " << in_own_words(error)
+                << ". exemplar live --help lists the options." << std::endl;
       return 1;
     }
     catch (const UserError &error)

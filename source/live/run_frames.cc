@@ -136,9 +136,13 @@ namespace Exemplar::Live
     const fs::path animation = directory / "animation.pvd";
     if (std::error_code none; !fs::exists(animation, none))
       throw UserError(directory.string()
-                      + " has no animation.pvd. Give the output directory of a run that has ended, "
-                        "with vtu among "
-                        "Output/Formats.");
+                      + (fs::is_directory(directory, none)
+                             ? " has no animation.pvd. Give the output directory of a run that has "
+                               "ended, with vtu "
+                               "among Output/Formats and Output/Every not 0."
+                             : " is no directory. Give the output directory of a run: exemplar "
+                               "SCENE.prm --output "
+                               "DIRECTORY makes one."));
     const std::string     text = text_of_file(animation);
     std::vector<RunFrame> frames;
     const std::string     tag = "<DataSet";

@@ -198,8 +198,14 @@ namespace Exemplar::Live
     }
     else
     {
-      const asio::ip::tcp::endpoint endpoint(asio::ip::make_address(place.address),
+      beast::error_code             no_address;
+      const asio::ip::tcp::endpoint endpoint(asio::ip::make_address(place.address, no_address),
                                              static_cast<unsigned short>(place.port));
+      if (no_address)
+        throw UserError("--bind: " + in_quotes(place.address)
+                        + " is no address of numbers. Allowed: 127.0.0.1 for this machine alone, "
+                          "0.0.0.0 for all that "
+                          "reach it, another of its addresses, or unix:PATH.");
       acceptor.open(endpoint.protocol());
       acceptor.set_option(asio::socket_base::reuse_address(true));
       acceptor.bind(endpoint);

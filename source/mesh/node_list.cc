@@ -42,7 +42,10 @@ namespace Exemplar
       {
         for (unsigned int node = 0; node < mesh.node_numbers.size(); ++node)
           index[mesh.node_numbers[node]] = node;
-        minimum = *std::min_element(mesh.node_numbers.begin(), mesh.node_numbers.end());
+        const auto [first, last]
+            = std::minmax_element(mesh.node_numbers.begin(), mesh.node_numbers.end());
+        minimum = *first;
+        maximum = *last;
       }
 
       std::vector<unsigned int>
@@ -78,7 +81,7 @@ namespace Exemplar
               mesh_name,
               number == 0.
                   ? fmt::format(", whose nodes are counted from {0}: add {0} to all.", minimum)
-                  : ".",
+                  : fmt::format(", whose nodes go up to {}.", maximum),
               remedy));
         nodes.insert(found->second);
       }
@@ -137,6 +140,10 @@ namespace Exemplar
               key, file.string(), minimum, minimum));
         if (!std::regex_search(header, type, type_pattern))
           fail_npy("holds no numbers of this machine's byte order");
+        static const std::regex one_axis("'shape': *\\( *[0-9]*,? *\\)");
+        if (type.str(1)[0] == 'f' && !std::regex_search(header, one_axis))
+          fail_npy(
+              "holds a table of numbers with decimals, such as coordinates, not numbers of nodes");
         const std::string data = bytes.substr(begin + header_size);
         if (data.size() != n_entries(header) * static_cast<std::size_t>(type.str(1)[1] - '0'))
           fail_npy("is truncated, or longer than its header says");
@@ -204,6 +211,7 @@ namespace Exemplar
             "begins a comment. Arrays of numpy.save() are read, too.";
       std::unordered_map<std::size_t, unsigned int> index;
       std::size_t                                   minimum = 0; ///< of the mesh's node numbers
+      std::size_t                                   maximum = 0;
       std::set<unsigned int>                        nodes;
     };
   } // namespace

@@ -69,6 +69,17 @@ namespace Exemplar
                                  : " These words are written in small letters.";
       if (std::regex_match(line, comment))
         return " A comment begins with #.";
+      if (line.rfind("exemplar session", 0) == 0)
+        return " This is a recorded session, not a scene: run the scene.prm beside it, or let a "
+               "scene play it by "
+               "Session/File.";
+      static const std::regex wavefront("(v|vn|vt|f|o|g|mtllib) .*");
+      if (std::regex_match(line, parts, wavefront))
+        return " This looks like a surface (.obj), not like a scene: a scene names it by Mesh/File.";
+      if (line == "$MeshFormat")
+        return " This is a mesh of gmsh, not a scene: a scene names it by Mesh/File.";
+      if (line.find(',') != std::string::npos && line.find_first_of(" =;:(") == std::string::npos)
+        return " This looks like a table (.csv), not like a scene or a study.";
       if (line[0] == '{' || line[0] == '<' || line[0] == '$')
         return " This looks like a file of another kind, not like a scene or a study.";
       if (std::regex_match(line, python) && line.find('{') == std::string::npos)

@@ -73,7 +73,7 @@ namespace Exemplar
         return std::string(are_of_places ? " They are for x, y and z; write 0 where nothing is."
                                          : "")
                + " On a command line the whole needs quotes, as a shell ends its commands at ';'.";
-      if (texts.size() > n_components && texts.size() % n_components == 0)
+      if (are_of_places && texts.size() > n_components && texts.size() % n_components == 0)
         return " If they are of several poses, separate these by '|': x; y; z | x; y; z.";
       if (texts.size() < n_components && are_of_places)
         return " They are for x, y and z; write 0 where nothing is.";

@@ -6,6 +6,7 @@
 #include <exemplar/program/argument_remedies.h>
 
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
 
 #include <filesystem>
 
@@ -34,6 +35,8 @@ namespace Exemplar
         return "exemplar pose --mesh FILE.msh --rest FILE.obj --pose FILE.obj --output DIRECTORY";
       if (command == "study")
         return "exemplar study STUDY.prm";
+      if (command == "export")
+        return "exemplar export OUTPUT [OTHER_OUTPUT] --html FILE.html";
       return command.empty() ? "exemplar SCENE.prm" : "exemplar " + command;
     }
 
@@ -119,20 +122,42 @@ namespace Exemplar
       return nearest_word(unknown, options);
     }
 
-    /// What a study has instead of an option of scenes; empty for other options.
-    std::string
-    remedy_in_study(const std::string &option, const Sorted &line)
+    /// What is to be done instead of giving a command an option that others have, or that it could have.
+    struct Remedy
     {
-      if (option == "--set")
-        return " Keys of all runs stand in the study: set Base = Section/Key=value.";
-      if (option == "--threads")
-        return " The study says it: set Threads = 2.";
-      if (option == "--resume")
-        return " A study goes on by itself: give the same command without it.";
-      if (option == "--validate")
-        return " A study is checked without the word study: exemplar "
-               + (line.positional.empty() ? "STUDY.prm" : printable(line.positional[0]))
-               + " --validate.";
+      std::string command; ///< empty: a scene is run
+      std::string option;
+      std::string words;
+    };
+
+    const std::vector<Remedy> remedies = {
+      { "study", "--set", "Keys of all runs stand in the study: set Base = Section/Key=value." },
+      { "study", "--threads", "The study says it: set Threads = 2." },
+      { "study", "--resume", "A study goes on by itself: give the same command without it." },
+      { "study", "--validate", "It is checked without the word study: exemplar {} --validate." },
+      { "verify", "--output", "It writes nothing but what it prints." },
+      { "verify", "--case", "Names of cases stand alone: exemplar verify uniaxial patch." },
+      { "mesh", "--scale", "Lengths are changed in the scene, by Mesh/Scale." },
+      { "mesh", "--threads", "Cells are filled in by one thread." },
+      { "pose", "--cells", "Cells are made before, by exemplar mesh --cells N." },
+      { "export", "--output", "The page is named by --html FILE.html." },
+      { "", "--session", "A recorded session is played by --set Session/File=FILE." },
+      { "", "--record",
+        "What is done by hand is recorded by exemplar live SCENE.prm --record DIRECTORY." },
+      { "", "--mesh", "A scene's mesh is given by --set Mesh/File=FILE." },
+      { "", "--surface", "A scene's surface is given by --set Mesh/File=FILE." },
+      { "", "--cells", "The number of cells is given by --set Mesh/Cells=N." },
+    };
+
+    /// Empty if there is none. In its words {} is the file that the command was given.
+    std::string
+    remedy_of(const std::string &option, const Sorted &line)
+    {
+      const std::string file
+          = line.positional.empty() ? "STUDY.prm" : printable(line.positional[0]);
+      for (const Remedy &remedy : remedies)
+        if (remedy.command == line.command && remedy.option == option)
+          return fmt::format(fmt::runtime(remedy.words), file);
       return "";
     }
 
@@ -143,8 +168,8 @@ namespace Exemplar
       const std::string  nearest = suggested_option(unknown, line.options);
       std::string        message = (line.command.empty() ? "A run" : "exemplar " + line.command)
                             + " has no option " + in_quotes(unknown) + ".";
-      if (line.command == "study" && !remedy_in_study(unknown, line).empty())
-        return message + remedy_in_study(unknown, line);
+      if (const std::string remedy = remedy_of(unknown, line); !remedy.empty())
+        return message + " " + remedy;
       if (!nearest.empty())
         message += " Did you mean '" + nearest + "'?";
       else if (line.command.empty())
@@ -168,6 +193,13 @@ namespace Exemplar
                                 : " Did you mean '" + nearest + "'?");
     }
 
+    bool
+    is_mesh_name(const std::filesystem::path &file)
+    {
+      const std::string extension = file.extension().string();
+      return extension == ".msh" || extension == ".geo" || is_surface_file(file.string());
+    }
+
     /// Of two words where one scene should be.
     std::string
     second_scene(const Sorted &line)
@@ -185,6 +217,9 @@ namespace Exemplar
         return in_quotes(second)
                + " is a directory and stands alone. That of the results is given by --output \""
                + printable(second) + "\".";
+      if (is_mesh_name(second))
+        return in_quotes(second) + " is no scene. A scene's mesh is given by --set \"Mesh/File="
+               + printable(second) + "\".";
       return "Two scenes are given, " + in_quotes(first) + " and " + in_quotes(second)
              + ". A run has one; exemplar study runs one with many settings.";
     }
@@ -201,9 +236,15 @@ namespace Exemplar
         return line.positional.size() > 1
                    ? "Two studies are given; " + in_quotes(word) + " is one too many."
                    : "";
-      return line.command == "verify" ? ""
-                                      : in_quotes(word) + " stands without an option. Write: "
-                                            + usage(line.command) + ".";
+      if (line.command == "verify" || (line.command == "export" && line.positional.size() < 3))
+        return "";
+      if (line.command == "export")
+        return "A page shows one run, or two side by side; " + in_quotes(word)
+               + " is one too many.";
+      return in_quotes(word) + " stands without an option. Write: " + usage(line.command) + "."
+             + (line.command == "mesh" && is_surface_file(word)
+                    ? " Poses of the surface are given by --poses."
+                    : "");
     }
 
     /// CLI11's words, where they are not those of this program.
@@ -252,11 +293,15 @@ namespace Exemplar
                       + (file / "parameters.prm").string() + ".");
     if (!file.empty() && !file.has_extension() && !is_there(file)
         && !is_there(file.string() + ".prm"))
-      throw UserError(in_quotes(file.string())
-                      + " is neither a scene nor a command. A scene is run by: exemplar "
-                        "SCENE.prm; exemplar --help lists commands and options.");
-    const std::string extension = file.extension().string();
-    if (extension == ".msh" || extension == ".geo" || is_surface_file(file.string()))
+      throw UserError(
+          in_quotes(file.string())
+          + " is neither a scene nor a command. A scene is run by: exemplar "
+            "SCENE.prm; exemplar --help lists commands and options."
+          + (file.has_parent_path()
+                 ? " A key is set by --set \"" + printable(file.string())
+                       + "=value\"; --print-parameters stands alone and prints all keys."
+                 : ""));
+    if (is_mesh_name(file))
       throw UserError(file.string()
                       + " is a mesh or a surface, not a scene. Write a scene (.prm) "
                         "that names it, by 'set File = "

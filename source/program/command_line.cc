@@ -322,6 +322,9 @@ Exit status:
     if (arguments.run.resume && arguments.run.resume_from)
       throw UserError("--resume goes on from the last checkpoint, --resume-from from the step that "
                       "it names: give one of them.");
+    if (arguments.validate && (arguments.run.resume || arguments.run.resume_from))
+      throw UserError(
+          "--validate checks a scene from its beginning, and no checkpoint: leave out --resume.");
     if (arguments.run.quiet && arguments.run.verbose)
       throw UserError("--quiet prints less and --verbose prints more: give one of them.");
     if (arguments.output.empty() && app.get_option("--output")->count() > 0)

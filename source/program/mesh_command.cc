@@ -139,6 +139,9 @@ namespace Exemplar
     void
     list_faults(const MeshCommandOptions &options)
     {
+      if (!options.output.empty())
+        throw UserError("--list-faults writes a table instead of a mesh, and --output names a "
+                        "mesh: give one of them.");
       if (options.faults.extension() != ".csv")
         throw UserError("--list-faults: the table is written as .csv, found "
                         + in_quotes(options.faults.string()) + ". Give a name that ends so.");

@@ -52,7 +52,8 @@ namespace Exemplar::Python
       refuse_mask(object, what);
       const char kind = any.dtype().kind();
       if (std::is_integral_v<Number> && kind != 'i' && kind != 'u')
-        throw UserError(what + " must be an array of integers.");
+        throw UserError(what + " must be an array of integers, but is one of "
+                        + std::string(py::str(any.dtype())) + ". Give it as array.astype(int).");
       require_real(any, what);
       return any;
     }
@@ -101,7 +102,9 @@ namespace Exemplar::Python
       {
         PyErr_Clear();
         throw UserError("mesh: material ids must be an array of integers of shape (m,), but is "
-                        + description(object) + ".");
+                        + description(object)
+                        + (any ? " and type " + std::string(py::str(any.dtype())) : std::string())
+                        + ".");
       }
       refuse_mask(object, "mesh: material ids");
       return indices_of(any, "mesh: material ids");

@@ -9,7 +9,7 @@ namespace Exemplar::Python
     // clang-format off
     static const std::vector<std::pair<const char *, const char *>> examples = {
       { "Problem", R"(>>> scene = {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [4, 1, 1]}, "Loads": {"Gravity": [0, 0, -1]},
-...          "Handles": {"left": {"Select": ["box", 0, 0, 0, 0, 1, 1]}}, "Material": {"Young's modulus": 1e7}}
+...          "Handles": {"left": {"Select": ["box", 0, -1, -1, 0, 1, 1]}}, "Material": {"Young's modulus": 1e7}}
 >>> exemplar.Problem(scene).run().status
 'converged')" },
       { "Problem.run", R"(>>> problem.run().status

@@ -129,20 +129,6 @@ namespace Exemplar::Python
                  : "Problem has got no scene. " + usage;
     }
 
-    /// What Python's own setting of an attribute does, but a method that is set is told to be called.
-    void
-    set_attribute(const py::object &problem, const py::str &name, const py::object &value)
-    {
-      if (PyObject_GenericSetAttr(problem.ptr(), name.ptr(), value.ptr()) == 0)
-        return;
-      py::error_already_set error;
-      const py::object      attribute = py::getattr(py::type::of(problem), name, py::none());
-      if (error.matches(PyExc_AttributeError) && PyCallable_Check(attribute.ptr()) != 0)
-        throw py::attribute_error(std::string(name) + " is called, not set: problem."
-                                  + std::string(name) + "(...).");
-      throw error;
-    }
-
     void
     add_actions(Class &problem)
     {
@@ -172,20 +158,15 @@ namespace Exemplar::Python
                              "set_motion is called as set_motion(name, function).");
       refuse_other_arguments(problem, "on_iteration",
                              "on_iteration is called as on_iteration(function), or with None.");
-      problem.def("__setattr__", &set_attribute);
+      add_refusals_to_set(problem);
     }
 
     void
     add_state(Class &problem)
     {
-      problem.def_property(
+      problem.def_property_readonly(
           "positions",
           [](HeldProblem &held) { return held.get_arrays().positions(held.in_step()); },
-          [](HeldProblem &, const py::object &)
-          {
-            throw py::attribute_error("positions cannot be set alone. Set the whole state: "
-                                      "problem.state = problem.state.replace(positions=...).");
-          },
           "Positions (n, 3) [m] of the nodes, read only, in the mesh's order. No copy is made. "
           "The\n"
           "array shows the state at which it was asked for, also after later steps: ask again for\n"

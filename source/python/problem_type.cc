@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/python/problem_type.h>
 
+#include <map>
+
 namespace Exemplar::Python
 {
   namespace py = pybind11;
@@ -32,6 +34,38 @@ namespace Exemplar::Python
         py::detail::pybind11_object_dealloc(self);
       }
     }
+
+    /// What Python's own setting of an attribute does, but a method that is set is told to be called.
+    void
+    set_attribute(const py::object &problem, const py::str &name, const py::object &value)
+    {
+      if (PyObject_GenericSetAttr(problem.ptr(), name.ptr(), value.ptr()) == 0)
+        return;
+      py::error_already_set                            error;
+      static const std::map<std::string, const char *> remedies
+          = { { "positions",
+                "Set the whole state: problem.state = problem.state.replace(positions=...)." },
+              { "velocities",
+                "Set the whole state: problem.state = problem.state.replace(velocities=...)." },
+              { "weights", "Set the whole state, problem.state = "
+                           "problem.state.replace(weights=...), or hold them in a scene "
+                           "with Weights = prescribed." },
+              { "time", "Set the whole state: problem.state = problem.state.replace(time=...)." },
+              { "handles", "Handles come by problem.hold() and problem.grab(), move by "
+                           "set_motion() and go by let_go()." },
+              { "rest_positions", "A body of another shape is another problem: "
+                                  "exemplar.Problem(scene, mesh=(nodes, cells))." },
+              { "cells", "A body of other cells is another problem: exemplar.Problem(scene, "
+                         "mesh=(nodes, cells))." } };
+      if (const auto remedy = remedies.find(name);
+          remedy != remedies.end() && error.matches(PyExc_AttributeError))
+        throw py::attribute_error(remedy->first + " cannot be set. " + remedy->second);
+      const py::object attribute = py::getattr(py::type::of(problem), name, py::none());
+      if (error.matches(PyExc_AttributeError) && PyCallable_Check(attribute.ptr()) != 0)
+        throw py::attribute_error(std::string(name) + " is called, not set: problem."
+                                  + std::string(name) + "(...).");
+      throw error;
+    }
   } // namespace
 
   void
@@ -59,6 +93,12 @@ namespace Exemplar::Python
   {
     problem.def(name, [usage](const HeldProblem &, const py::args &, const py::kwargs &)
                 { throw py::type_error(usage); });
+  }
+
+  void
+  add_refusals_to_set(ProblemClass &problem)
+  {
+    problem.def("__setattr__", &set_attribute);
   }
 
   void

@@ -45,6 +45,19 @@ namespace Exemplar::Python
       return py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value);
     }
 
+    /// Whether a list is one of numbers alone, or has a list in it.
+    bool
+    holds_arrays(const py::handle &list)
+    {
+      bool only_numbers = true, has_list = false;
+      for (const py::handle entry : list)
+      {
+        only_numbers = only_numbers && !py::isinstance<py::str>(entry);
+        has_list     = has_list || is_list(entry);
+      }
+      return only_numbers || has_list;
+    }
+
     std::string
     text_of_value(const py::handle &value, const std::string &what)
     {
@@ -104,6 +117,16 @@ namespace Exemplar::Python
       };
       if (!is_list(value))
         return of_value(value);
+      if (key == "Select" && holds_arrays(value))
+        throw UserError(
+            what
+            + " holds numbers of nodes. Nodes of an array are held by problem.hold(name, nodes); a "
+              "scene "
+              "selects by places, such as [\"sphere\", x, y, z, radius], or by [\"nodes\", FILE].");
+      if (path.size() == 1 && path[0] == "Material" && py::len(value) > 21)
+        throw UserError(what + " is a list of " + std::to_string(py::len(value))
+                        + " entries, but a scene gives one value. Values of cells are given by "
+                          "problem.set_material(young=..., poisson=..., density=...).");
       const auto entries = py::reinterpret_borrow<py::sequence>(value);
       // weights are a list, or a list of lists, one a region
       const bool is_by_region

@@ -232,6 +232,12 @@ namespace Exemplar::Python
     {
       type.def("__len__", [](const Trajectory &trajectory)
                { return trajectory.steps == nullptr ? 0 : trajectory.steps->size(); });
+      type.def("__repr__",
+               [](const Trajectory &trajectory)
+               {
+                 const std::size_t n = trajectory.steps == nullptr ? 0 : trajectory.steps->size();
+                 return fmt::format("<exemplar.Trajectory of {} step{}>", n, n == 1 ? "" : "s");
+               });
       type.def_property_readonly(
           "times",
           [](const Trajectory &trajectory)

@@ -3,9 +3,13 @@
 import functools
 from typing import Any
 
-import jax
-import jax.numpy as jnp
 import numpy as np
+
+try:
+    import jax
+    import jax.numpy as jnp
+except ModuleNotFoundError as missing:
+    raise ModuleNotFoundError("exemplar.with_jax needs jax, which is not installed: pip install jax", name="jax") from missing
 
 import exemplar
 from exemplar._equilibrium import pull_back, solve

@@ -2,8 +2,11 @@
 """Static equilibria as a function of torch; doc/gradients.md."""
 from typing import Any
 
-import torch
-from torch.autograd.function import once_differentiable
+try:
+    import torch
+    from torch.autograd.function import once_differentiable
+except ModuleNotFoundError as missing:
+    raise ModuleNotFoundError("exemplar.with_torch needs torch, which is not installed: pip install torch", name="torch") from missing
 
 import exemplar
 from exemplar._equilibrium import pull_back, solve

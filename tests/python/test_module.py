@@ -278,14 +278,14 @@ class Scenes(unittest.TestCase):
 class State(unittest.TestCase):
     def test_positions_are_not_set(self):
         problem = exemplar.Problem(BAR)
-        with self.assertRaisesRegex(AttributeError, "positions cannot be set alone.*state.replace"):
+        with self.assertRaisesRegex(AttributeError, "positions cannot be set. .*state.replace"):
             problem.positions = box()[0]
 
     def test_what_is_no_way_to_change_a_problem(self):
         problem = exemplar.Problem(BAR, poses=[twisted(box()[0])])
         with self.assertRaisesRegex(AttributeError, "on_iteration is called, not set: problem.on_iteration"):
             problem.on_iteration = print
-        for name, words in ("weights", "set"), ("tolerance", "no attribute 'tolerance'"):
+        for name, words in ("weights", "replace.weights"), ("velocities", "replace"), ("time", "replace"), ("handles", "let_go"), ("tolerance", "no attribute 'tolerance'"):
             with self.assertRaisesRegex(AttributeError, words):
                 setattr(problem, name, 1)
         with self.assertRaisesRegex(ValueError, "read-only"):

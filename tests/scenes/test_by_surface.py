@@ -388,6 +388,7 @@ class Caches(BySurface):
                 ("j.mdd", mdd([0., float("nan")], [VERTICES, VERTICES]), ("no finite number",)),
                 ("k.mdd", b"", ("empty",)),
                 ("a.pc2", pc2(0., 1., [VERTICES])[1:], ("no .pc2 file",)),
+                ("m.mdd", pc2(0., 1., [VERTICES]), ("it is a .pc2 file", "ends in .pc2")),
                 ("b.pc2", pc2(0., 0., [VERTICES, VERTICES]), ("not after that",)),
                 ("c.pc2", pc2(0., 1., [VERTICES], 2), ("version 2",)),
                 ("d.pc2", pc2(0., 1., [VERTICES])[:50], ("truncated",)),

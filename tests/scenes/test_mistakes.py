@@ -288,6 +288,27 @@ COMMANDS = [
     (["mesh", "--surface", "cubee.obj", "--cells", "100", "--output", "m.msh"], ["Did you mean cube.obj?"]),
     (["mesh", "cube.obj", "m.msh"], ["stands without an option", "exemplar mesh --surface"]),
     (["pose", "--mesh", "bar.msh", "--rest", "cube.obj", "--poses", "cube.obj", "--output", "p"], ["'--poses'", "Did you mean '--pose'"]),
+    ([*POSE, "--cells", "100"], ["no option '--cells'", "by exemplar mesh --cells N"]),
+    ([*MESH, "cube.obj", "--cells", "100", "--output", "m.msh"], ["'cube.obj' stands without an option", "given by --poses"]),
+    ([*MESH, "--cells", "100", "--output", "m.msh", "--scale", ".001"], ["no option '--scale'", "Mesh/Scale"]),
+    ([*MESH, "--cells", "100", "--output", "m.msh", "--list-faults", "f.csv"], ["instead of a mesh", "give one of them"]),
+    (["scene.prm", "bar.msh"], ["'bar.msh' is no scene", "--set \"Mesh/File=bar.msh\""]),
+    (["scene.prm", "--session", "s.txt"], ["no option '--session'", "--set Session/File=FILE"]),
+    (["scene.prm", "--record", "r"], ["no option '--record'", "exemplar live SCENE.prm --record"]),
+    (["scene.prm", "--mesh", "bar.msh"], ["no option '--mesh'", "--set Mesh/File=FILE"]),
+    (["scene.prm", "--validate", "--resume"], ["no checkpoint", "leave out --resume"]),
+    (["--print-parameters", "Time/Step"], ["--set \"Time/Step=value\"", "--print-parameters stands alone"]),
+    (["session.txt"], ["a recorded session, not a scene", "Session/File"]),
+    (["study", "table.csv"], ["looks like a table (.csv)"]),
+    (["verify", "--case", "patch"], ["no option '--case'", "exemplar verify uniaxial patch"]),
+    (["export", "broken"], ["--html is required: exemplar export OUTPUT [OTHER_OUTPUT] --html FILE.html"]),
+    (["export", "a", "b", "c", "--html", "x.html"], ["one run, or two side by side", "'c' is one too many"]),
+    (["export", "broken", "--output", "x.html"], ["no option '--output'", "--html FILE.html"]),
+    (["export", "scene.prm", "--html", "x.html"], ["scene.prm is no directory", "output directory of a run"]),
+    (["live", "scene.prm", "--output", "x"], ["'--output'", "--record DIRECTORY"]),
+    (["live", "scene.prm", "--validate"], ["'--validate'", "exemplar SCENE.prm --validate"]),
+    (["live", "scene.prm", "--prot", "1"], ["'--prot'", "Did you mean '--port'"]),
+    (["live", "dynamic.prm", "--bind", "localhost"], ["'localhost' is no address of numbers", "127.0.0.1"]),
 ]
 
 
@@ -317,6 +338,9 @@ class Mistakes(BadInputTest):
     def test_commands(self):
         self.write("scene.prm", prm({**TWO, "Examples/Pose functions": "1.1*x; y; z"}))
         self.write("study.prm", prm({"Scene": "scene.prm", "Vary": "Time/Increments: 1 2"}))
+        self.write("dynamic.prm", prm(DYNAMIC))
+        self.write("session.txt", "exemplar session 1\n")
+        self.write("table.csv", "Time/Increments,status\n")
         self.write("lost.prm", prm({"Scene": "absent.prm", "Vary": "Time/Increments: 1 2"}))
         before = self.tree()
         for arguments, words in COMMANDS:

@@ -27,6 +27,11 @@ namespace Exemplar::Python
   void
   refuse_other_arguments(ProblemClass &problem, const char *name, const std::string &usage);
 
+  /// Python's own setting of attributes, but for methods and for what can only be read, of which it says what to do
+  /// instead.
+  void
+  add_refusals_to_set(ProblemClass &problem);
+
   /// Let pickle and copy refuse the objects of a type: with pickle's oldest protocols pybind11 would end the
   /// process.
   void

@@ -118,7 +118,8 @@ namespace Exemplar
       throw UserError(fmt::format(
           "vjp: the problem does not stand at an equilibrium that a step has found (residual "
           "{:.2g}, "
-          "allowed {:.2g}). Call step() or run() first, after each change of the problem.",
+          "allowed {:.2g}). Call step() first, after each change of the problem; run() makes no "
+          "step at the scene's end.",
           value, bound));
   }
 } // namespace Exemplar

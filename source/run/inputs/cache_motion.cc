@@ -142,10 +142,19 @@ namespace Exemplar
                       const std::vector<double> &times,
                       const HandleParameters    &handle)
     {
-      if (from.scene.scene == SceneKind::dynamic || times.back() <= 1. + 1e-6)
+      const std::string key = "Handles/" + handle.name;
+      if (from.scene.scene == SceneKind::dynamic)
+      {
+        if (times.front() >= from.scene.time.end && times.size() > 1)
+          from.warnings.push_back(
+              fmt::format("{}/Follow cache begins at t = {} s, and the scene ends at {} s: nothing "
+                          "of it is followed. Change {}/Cache start or Time/End.",
+                          key, short_text(times.front()), short_text(from.scene.time.end), key));
         return;
-      const std::string key       = "Handles/" + handle.name;
-      const auto        n_reached = std::upper_bound(times.begin(), times.end(), 1. + 1e-6);
+      }
+      if (times.back() <= 1. + 1e-6)
+        return;
+      const auto n_reached  = std::upper_bound(times.begin(), times.end(), 1. + 1e-6);
       const bool has_frames = std::filesystem::path(handle.follow_cache).extension() != ".mdd";
       from.warnings.push_back(
           fmt::format("{}/Follow cache goes to t = {} s, but t of a static scene ends at 1, after "

@@ -100,11 +100,13 @@ namespace Exemplar
       for (const unsigned int node : problem.constraints.handles.nodes(handle))
         for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
         {
-          if (moved[dof] == rest[dof])
+          if (moved[dof] != rest[dof]
+              || problem.actions.mass != nullptr) // statics go back to rest from any guess
+            maximum[2].add(moved[dof] - problem.state.positions[dof]);
+          if (moved[dof] == rest[dof] || moved[dof] == problem.state.positions[dof])
             continue; // not held, or not moved
           maximum[0].add(rest[dof]);
           maximum[1].add(moved[dof] - 2. * rest[dof]);
-          maximum[2].add(moved[dof] - problem.state.positions[dof]);
         }
       const Exchange &exchange = problem.body.exchange();
       return { exchange.max(maximum[0].value()), exchange.max(maximum[1].value()),
@@ -127,7 +129,8 @@ namespace Exemplar
       return key + ": at t = 0 the held nodes are up to " + short_text(at.from_start)
              + " m from where the body starts, so they "
              + (problem.actions.mass != nullptr
-                    ? "jump in the first step. Let its motion begin with 0, or set Initial/Pose."
+                    ? "jump in the first step. Let its motion begin with 0, or let Initial/Pose "
+                      "begin there."
                     : "go all of this way in the first increment. A motion gives displacements "
                       "from rest: let it begin with 0, such as t times what is there, or set "
                       "Initial/Pose.");
@@ -162,7 +165,7 @@ namespace Exemplar
     add_beginnings(const Problem &problem, std::vector<std::string> &warnings)
     {
       const Handles &handles = problem.constraints.handles;
-      Vector         moved   = problem.body.fe_space.rest_positions();
+      Vector         moved   = problem.state.positions; // what is not held stays there
       handles.move(problem.time_axis.time(0), moved);
       // what is grabbed later begins where it is
       for (unsigned int handle = 0; handle < problem.parameters.handles.size(); ++handle)

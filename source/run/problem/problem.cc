@@ -97,6 +97,12 @@ namespace Exemplar
       RecordedSession recorded = read_session(parameters.session);
       actions.warnings.insert(actions.warnings.end(), recorded.warnings.begin(),
                               recorded.warnings.end());
+      if (!recorded.events.empty() && recorded.events.front().step > time_axis.n_steps())
+        actions.warnings.push_back(fmt::format("Nothing of the session {} happens: its first line "
+                                               "is of step {}, and the scene has {} steps. Enlarge "
+                                               "Time/End.",
+                                               parameters.session, recorded.events.front().step,
+                                               time_axis.n_steps()));
       session->play(std::move(recorded.events), parameters.session);
     }
   }

@@ -211,6 +211,28 @@ namespace Exemplar
              "so it pulls at the body all the time. Set Examples/Include rest pose = true for a "
              "body that rests in its rest pose.";
     }
+
+    /// A file that makes the body begin; a function may turn it inside out on purpose.
+    Warning
+    review_initial_pose(const Problem &problem)
+    {
+      if (problem.parameters.initial.pose.empty() || problem.state.step > 0)
+        return {};
+      const std::string doubt
+          = describe_pose(problem.body.mesh, problem.body.fe_space, problem.state.positions, true);
+      return doubt.empty() ? Warning() : "Initial/Pose " + doubt;
+    }
+
+    Warning
+    review_surface(const MeshParameters &mesh)
+    {
+      const std::string surface = mesh.surface_file();
+      if (surface.empty() || is_surface_file(surface))
+        return {};
+      return "Mesh/Surface = " + surface
+             + " is no surface, and nothing in this scene is read off one. Give an .obj, "
+               ".ply or .stl file, or remove it.";
+    }
   } // namespace
 
   std::vector<std::string>
@@ -220,7 +242,8 @@ namespace Exemplar
         = { review_poissons_ratio(problem),      review_background(problem),
             review_mass_damping(problem),        review_tolerance(problem),
             review_prescribed_weights(problem),  review_lone_example(problem),
-            review_box(problem.parameters.mesh), review_extremes(problem) };
+            review_box(problem.parameters.mesh), review_extremes(problem),
+            review_initial_pose(problem),        review_surface(problem.parameters.mesh) };
     for (const HandleParameters &handle : problem.parameters.handles)
       found.push_back(review_components(handle));
     std::vector<std::string> warnings;

@@ -63,11 +63,12 @@ namespace Exemplar
       const bool is_equilibrium = problem.parameters.scene != SceneKind::dynamic
                                   && problem.parameters.solver.method != Method::one_pass;
       return fmt::format(
-          "{} cells are inverted at the end: element {}{}{}).", inverted.size(),
-          list_numbers(inverted),
+          "{} cells are inverted at the end: element {}{}{}), or let the body turn: handles with "
+          "fewer nodes or Components.",
+          inverted.size(), list_numbers(inverted),
           is_equilibrium ? ". The state is an equilibrium, but there may be one of less energy: "
                            "look at the frames, or take smaller steps ("
-                         : ". Look at the frames, or take smaller steps (",
+                         : ". Look at the frames, take smaller steps (",
           problem.parameters.scene == SceneKind::dynamic
               ? "Time/Step"
               : fmt::format("Time/Increments, now {}", problem.parameters.time.increments));

@@ -46,10 +46,15 @@ namespace Exemplar
           "in a dynamic scene, whose steps come from Time/Step and Time/End. Remove it, or "
           "set Scene = static." },
         { !has_examples && scene.examples.importance > 0.,
-          { "Examples/Importance", "Examples/Weights", "Examples/Energy",
-            "Examples/Example modulus", "Examples/Example Poisson ratio",
-            "Material/Importance factor", "Material/Importance map" },
+          { "Examples/Importance", "Examples/Weights", "Examples/Energy", "Examples/Weight penalty",
+            "Examples/Acts on", "Examples/Yield", "Examples/Creep viscosity",
+            "Examples/Weights per region", "Examples/Weight maps", "Examples/Example modulus",
+            "Examples/Example Poisson ratio", "Material/Importance factor",
+            "Material/Importance map" },
           "without examples. Give Examples/Poses or Examples/Pose functions, or remove it." },
+        { scene.examples.weights == WeightRule::prescribed,
+          { "Examples/Weight penalty" },
+          "with prescribed weights, of which none is looked for. Remove it." },
         { !is_dynamic,
           { "Solver/Step tolerance" },
           "in a scene that is not dynamic, whose steps are solved to Solver/Tolerance. Set that "

@@ -128,6 +128,10 @@ namespace Exemplar
     {
       PointFile       points{ std::make_shared<SurfaceScanner>(name), {}, 0, 0 };
       SurfaceScanner &in = *points.in;
+      if (in.all().substr(0, 11) == "POINTCACHE2")
+        throw UserError(
+            name
+            + ": begins with POINTCACHE2, so it is a .pc2 file. Give it a name that ends in .pc2.");
       in.begin_binary(true);
       in.begin_count(2, "counts of its header");
       const std::size_t n_samples = read_count(in, name, "samples");
@@ -152,7 +156,10 @@ namespace Exemplar
       in.begin_binary(false);
       in.begin_count(32, "bytes of its header");
       if (in.all().substr(0, 11) != "POINTCACHE2")
-        throw UserError(name + ": does not begin with POINTCACHE2, so it is no .pc2 file."
+        throw UserError(name
+                        + ": does not begin with POINTCACHE2, so it is no .pc2 file. If it is a "
+                          ".mdd file, give it a "
+                          "name that ends so."
                         + export_remedy);
       in.go_to(12);
       if (const auto version = in.raw<std::int32_t>(); version != 1)

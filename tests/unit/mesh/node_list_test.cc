@@ -65,7 +65,9 @@ namespace Exemplar::Testing
       {
         const std::string message = refusal("11, " + word + ", 12");
         expect_contains(message, "KEY: '" + word + "' in ");
-        expect_contains(message, "list is no node number of bar.msh. List node numbers");
+        expect_contains(
+            message,
+            "list is no node number of bar.msh, whose nodes go up to 14. List node numbers");
       }
       EXPECT_LT(refusal(std::string(300000, 'x')).size(), 600u);
       expect_contains(refusal(" ,; # 10\n"), "holds no node number");
@@ -81,6 +83,7 @@ namespace Exemplar::Testing
       EXPECT_EQ(read(npy<double>("<f8", "(2,)", { 10., 12. })), (Nodes{ 0, 2 }));
       expect_contains(refusal(npy<std::int64_t>("<i8", "(2,)", { 10, 77 })), "'77'");
       expect_contains(refusal(npy<double>("<f8", "(1,)", { 10.5 })), "is no node number");
+      expect_contains(refusal(npy<double>("<f8", "(1, 2)", { 10., 12. })), "such as coordinates");
       expect_contains(refusal(npy<char>("|b1", "(2,)", { 1, 0 })), "numpy.flatnonzero(mask) + 10)");
       expect_contains(refusal(npy<std::int64_t>(">i8", "(1,)", { 10 })), "byte order");
       expect_contains(refusal(npy<std::int64_t>("<i8", "(3,)", { 10, 11 })), "truncated");
