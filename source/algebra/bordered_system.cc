@@ -48,6 +48,13 @@ namespace Exemplar
         return A->traits();
       }
 
+      void
+      reinit(const SymmetricPattern &pattern) override
+      {
+        inverse_columns.clear();
+        A->reinit(pattern);
+      }
+
       std::vector<double> &
       matrix_values() override
       {

@@ -26,6 +26,14 @@ namespace Exemplar
         return { "umfpack", 0., 0., 0 };
       }
 
+      void
+      reinit(const SymmetricPattern &new_pattern) override
+      {
+        pattern = new_pattern;
+        values.assign(pattern.n_values(), 0.);
+        sparse.clear();
+      }
+
       std::vector<double> &
       matrix_values() override
       {
@@ -133,7 +141,7 @@ namespace Exemplar
                        { sparse.set(i, j, value); });
       }
 
-      const SymmetricPattern       pattern;
+      SymmetricPattern             pattern;
       std::vector<double>          values;
       dealii::SparsityPattern      sparsity;
       dealii::SparseMatrix<double> sparse;

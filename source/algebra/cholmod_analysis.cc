@@ -55,7 +55,7 @@ namespace Exemplar
   }
 
   cholmod_factor *
-  analyze(const SymmetricPattern &pattern, CholmodCommon &common)
+  analyze(const SymmetricPattern &pattern, CholmodCommon &common, const std::vector<int> &order)
   {
     // One thread at a time: METIS, which orders large matrices, draws from the one sequence of
     // random numbers of the C library, and the order decides the last digits.
@@ -63,7 +63,14 @@ namespace Exemplar
     const std::lock_guard<std::mutex> lock(of_random_numbers);
     const OneOpenMPThread             one_thread;
     cholmod_sparse                    matrix = cholmod_view(pattern, nullptr);
-    cholmod_factor                   *factor = cholmod_analyze(&matrix, &common);
+    cholmod_common *const             state  = &common;
+    if (!order.empty())
+    {
+      state->nmethods           = 1;
+      state->method[0].ordering = CHOLMOD_GIVEN;
+    }
+    int *const given = order.empty() ? nullptr : const_cast<int *>(order.data()); // it is only read
+    cholmod_factor *factor = cholmod_analyze_p(&matrix, given, nullptr, 0, state);
     common.check("analysis");
     return factor;
   }

@@ -11,11 +11,14 @@ namespace Exemplar
 {
   namespace
   {
+    /// A plain pattern's order of elimination serves for more couplings up to so many times the operations.
+    constexpr double greatest_growth = 1.5;
+
     std::shared_ptr<const FactorStructure>
-    analyzed(const SymmetricPattern &pattern)
+    analyzed(const SymmetricPattern &pattern, const std::vector<int> &order = {})
     {
       CholmodCommon   common;
-      cholmod_factor *factor = analyze(pattern, common);
+      cholmod_factor *factor = analyze(pattern, common, order);
       FactorStructure result = factor_structure(pattern, *factor, common);
       cholmod_free_factor(&factor, &common);
       return std::make_shared<const FactorStructure>(std::move(result));
@@ -69,7 +72,7 @@ namespace Exemplar
         matrix_values.assign(pattern.n_values(), 0.);
         rough_factor.reset();
         factor.reset();
-        structure = analyzed(pattern);
+        structure = analyzed_in_order_of_plain();
       }
 
       std::vector<double> &
@@ -134,6 +137,24 @@ namespace Exemplar
       }
 
     private:
+      std::shared_ptr<const FactorStructure>
+      analyzed_in_order_of_plain()
+      {
+        if (pattern.plain == nullptr)
+          return analyzed(pattern);
+        if (plain != pattern.plain)
+        {
+          plain           = pattern.plain;
+          plain_structure = analyzed(*plain);
+        }
+        if (pattern.row.size() == plain->row.size())
+          return plain_structure;
+        auto in_order = analyzed(pattern, plain_structure->permutation);
+        return in_order->n_operations > greatest_growth * plain_structure->n_operations
+                   ? analyzed(pattern)
+                   : in_order;
+      }
+
       /// Threads of a small factor would wait for each other longer than they work, by far where other
       /// programs have the cores.
       unsigned int
@@ -167,6 +188,8 @@ namespace Exemplar
       SymmetricPattern                           pattern;
       std::vector<double>                        matrix_values;
       std::shared_ptr<const FactorStructure>     structure;
+      std::shared_ptr<const SymmetricPattern>    plain; ///< of the last pattern that had one
+      std::shared_ptr<const FactorStructure>     plain_structure;
       std::optional<MultifrontalFactor<double>>  factor;
       std::shared_ptr<MultifrontalFactor<float>> rough_factor; ///< instead of it
     };

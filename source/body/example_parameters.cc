@@ -71,7 +71,8 @@ namespace Exemplar
              "Whether the rest pose is example 0. Without it a single example is a "
              "permanent pre-strain.");
     keys.add("Importance", importance,
-             "eta [-]: 0 is plain elasticity (no pose file is opened), 1 lets the examples "
+             "eta, how strongly the examples pull [-]: 0 is plain elasticity (no pose file is "
+             "opened), 1 lets the examples "
              "alone be free of stress.",
              Bounds{ 0., 1. });
     keys.add(

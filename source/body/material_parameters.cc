@@ -141,12 +141,12 @@ namespace Exemplar
   }
 
   bool
-  MaterialParameters::may_yield() const
+  MaterialParameters::has(const std::string &constant) const
   {
-    bool may = false;
+    bool has = false;
     for_each_section([&](const ElasticConstants &constants, const std::string & /*section*/)
-                     { may |= constants.own.at("Yield stress") > 0.; });
-    return may;
+                     { has |= constants.own.at(constant) > 0.; });
+    return has;
   }
 
   bool
@@ -155,8 +155,7 @@ namespace Exemplar
     bool chooses = false;
     for (const CellLaw law : all_laws())
       if (const char *const key = traits_of(law).chosen_by[0])
-        for_each_section([&](const ElasticConstants &constants, const std::string & /*section*/)
-                         { chooses |= constants.own.at(key) > 0.; });
+        chooses |= has(key);
     return chooses;
   }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh.h>
-#include <exemplar/mesh/mesh_arrays.h>
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/mesh_edges.h>
 #include <exemplar/mesh/quadratic_msh.h>
@@ -65,16 +63,6 @@ namespace Exemplar
               prefix, i + 1, found[i]->number, node_list(pose, *found[i]), expected[i]->number,
               node_list(mesh, *expected[i]), pose_remedy));
     }
-
-    void
-    require_same_unit(const MshFile &mesh, const MshFile &pose, const std::string &prefix)
-    {
-      constexpr double greatest = 100.;
-      if (const double ratio = box_diagonal(pose.nodes) / box_diagonal(mesh.nodes);
-          ratio > greatest)
-        throw UserError(prefix + "it is " + short_text(ratio)
-                        + " times as large. Write both in the same unit of length.");
-    }
   } // namespace
 
   std::vector<dealii::Point<3>>
@@ -86,7 +74,6 @@ namespace Exemplar
       return quadratic_pose(pose, mesh, prefix);
     compare_node_numbers(mesh, pose, prefix);
     compare_tetrahedra(mesh, pose, prefix);
-    require_same_unit(mesh, pose, prefix);
     return std::move(pose.nodes);
   }
 

@@ -54,6 +54,15 @@ namespace Exemplar
       result.stress_square    = sums.stress_square;
     }
 
+    std::unique_ptr<PatchDilatation>
+    make_patches(const ElasticParts &parts)
+    {
+      if (parts.patches.size() == 0)
+        return nullptr;
+      return std::make_unique<PatchDilatation>(parts.patches, parts.examples, parts.fe_space,
+                                               parts.material);
+    }
+
     CellRounding
     estimate_rounding(const ElasticParts &parts)
     {
@@ -85,27 +94,49 @@ namespace Exemplar
     }
   } // namespace
 
-  ElasticPotential::ElasticPotential(const ElasticParts     &parts,
-                                     PotentialTerms          new_terms,
-                                     const SymmetricPattern &pattern)
+  ElasticPotential::ElasticPotential(const ElasticParts &parts, const SymmetricPattern &pattern)
       : parts(parts), pattern(pattern), cells(parts.laws,
                                               parts.examples.constants(),
                                               parts.fe_space,
                                               parts.cell_material,
                                               parts.n_threads),
-        scatter(parts.fe_space, pattern, parts.free_dofs), terms(std::move(new_terms)),
+        scatter(parts.fe_space, pattern, parts.free_dofs), patches(make_patches(parts)),
         rounding(estimate_rounding(parts))
   {
-    for (const auto &term : terms)
-      term->attach(pattern, parts.free_dofs, cells);
+    if (patches != nullptr)
+      patches->attach(pattern, parts.free_dofs, cells);
+  }
+
+  NodePairs
+  ElasticPotential::couplings(const ElasticParts &parts, const bool in_parts)
+  {
+    const bool are_there = parts.patches.size() > 0
+                           && !(in_parts && PatchDilatation::couples_by_products(parts.fe_space));
+    return are_there ? PatchScatter::couplings(parts.patches, parts.fe_space) : NodePairs();
+  }
+
+  void
+  ElasticPotential::begin_step(const double s, const std::vector<WeightedPositions> &history)
+  {
+    cells.set_damping(s, history);
+    if (patches != nullptr)
+      patches->begin_step();
+  }
+
+  void
+  ElasticPotential::leave_step()
+  {
+    cells.set_damping(0., {});
+    if (patches != nullptr)
+      patches->leave_step();
   }
 
   void
   ElasticPotential::follow_pattern()
   {
     scatter.reinit();
-    for (const auto &term : terms)
-      term->attach(pattern, parts.free_dofs, cells);
+    if (patches != nullptr)
+      patches->attach(pattern, parts.free_dofs, cells);
   }
 
   void
@@ -137,21 +168,14 @@ namespace Exemplar
   }
 
   RotationUse
-  ElasticPotential::find_dilatations(const Vector &positions, const RotationUse rotations)
+  ElasticPotential::find_pressures(const TermPoint &at, const RotationUse rotations)
   {
-    if (!cells.get_dilatation().is_filled())
+    if (patches == nullptr)
       return rotations;
-    cells.update_dilatations(positions, rotations);
-    for (const auto &term : terms)
-      term->hear_cells(positions);
+    cells.update_dilatations(at.positions, rotations);
+    patches->read_dilatations(at.positions);
+    patches->write_pressures(at);
     return RotationUse::keep;
-  }
-
-  void
-  ElasticPotential::tell_cells(const TermPoint &at)
-  {
-    for (const auto &term : terms)
-      term->tell_cells(at);
   }
 
   void
@@ -196,9 +220,10 @@ namespace Exemplar
                              RotationUse                rotations,
                              const std::vector<double> *linear_term)
   {
-    if (linear_term == nullptr) // else its loop has found them
-      rotations = find_dilatations(positions, rotations);
-    tell_cells({ positions, weights });
+    if (linear_term == nullptr)
+      rotations = find_pressures({ positions, weights }, rotations);
+    else if (patches != nullptr) // the loop of that term has found the dilatations
+      patches->write_pressures({ positions, weights });
     CellTask cell_task = task(positions, weights, rotations);
     cell_task.with_weight_sums &= linear_term == nullptr;
     NodalSums            &nodal_sums = cells.get_nodal_sums();
@@ -226,8 +251,8 @@ namespace Exemplar
     own->weight_scale    = 0.;
     own->gradient.reinit(parts.fe_space.n_dofs());
     own->force_scale.reinit(parts.fe_space.n_nodes());
-    for (const auto &term : terms)
-      term->add({ positions, weights }, own);
+    if (patches != nullptr)
+      patches->add({ positions, weights }, own);
     nodal_sums.add_to(own->gradient, own->force_scale);
     result = complete(parts.fe_space.exchange(), std::move(own));
     add_penalty(weights, result);
@@ -254,10 +279,11 @@ namespace Exemplar
                              });
         });
     std::vector<double> linear_term = weight_sums.total();
-    for (const auto &term : terms)
-      term->hear_cells(positions);
-    for (const auto &term : terms)
-      term->add_weight_linear_term(positions, linear_term);
+    if (patches != nullptr)
+    {
+      patches->read_dilatations(positions);
+      patches->add_weight_linear_term(linear_term);
+    }
     parts.fe_space.exchange().sum(linear_term);
     parts.weights.get_memory().add_linear_term(linear_term);
     return linear_term;
@@ -266,14 +292,13 @@ namespace Exemplar
   CellResults
   ElasticPotential::cell_results(const Vector &positions, const std::vector<double> &weights)
   {
-    find_dilatations(positions, RotationUse::keep);
+    find_pressures({ positions, weights }, RotationUse::keep);
     cells.refresh_rotations();
-    tell_cells({ positions, weights });
     const unsigned int  n        = parts.fe_space.n_cells();
     const unsigned int  n_points = parts.fe_space.n_points();
     std::vector<double> densities(n_points, 0.);
-    for (const auto &term : terms)
-      term->add_densities(densities);
+    if (patches != nullptr)
+      patches->add_densities(densities);
     const CellBatches &batches = cells.get_batches();
     CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n),
                          std::vector<double>() };
@@ -318,10 +343,8 @@ namespace Exemplar
   ElasticPotential::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    std::size_t memory_of_terms = 0;
-    for (const auto &term : terms)
-      memory_of_terms += term->memory_consumption();
+    const std::size_t memory_of_patches = patches == nullptr ? 0 : patches->memory_consumption();
     return cells.memory_consumption() + memory_consumption(pattern.column_start)
-           + memory_consumption(pattern.row) + scatter.memory_consumption() + memory_of_terms;
+           + memory_consumption(pattern.row) + scatter.memory_consumption() + memory_of_patches;
   }
 } // namespace Exemplar

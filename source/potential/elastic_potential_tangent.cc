@@ -51,7 +51,7 @@ namespace Exemplar
       }
 
     private:
-      /// Of R K R^T, where R^T dF = M.
+      /// Add the response of R K R^T, where R^T dF = M.
       template <typename Constants>
       void
       add_rotated(const unsigned int point, const Matrix3<double> &M)
@@ -222,8 +222,7 @@ namespace Exemplar
                                      std::vector<double>       &columns,
                                      OuterProducts             *products)
   {
-    find_dilatations(positions, RotationUse::keep);
-    tell_cells({ positions, weights });
+    find_pressures({ positions, weights }, RotationUse::keep);
     CellTask cell_task = task(positions, weights, RotationUse::keep);
     if (tangent == Tangent::convex)
       cell_task.damping = cells.get_damping().arrays_of_all_cells();
@@ -238,8 +237,8 @@ namespace Exemplar
     if (parts.weights.n_unknown() > 0)
       with_element(parts.fe_space.element(),
                    [&](const auto of) { assemble_coupling<of()>(cell_task, to, columns); });
-    for (const auto &term : terms)
-      add_tangent_of(*term, { positions, weights }, tangent, matrix_values, columns, products);
+    if (patches != nullptr)
+      patches->add_tangent({ positions, weights }, tangent, matrix_values, columns, products);
   }
 
   void
@@ -267,11 +266,10 @@ namespace Exemplar
                                      const TermPoint &at,
                                      ElasticSums     &sums)
   {
-    find_dilatations(at.positions, RotationUse::keep);
+    find_pressures(at, RotationUse::keep);
     cells.refresh_rotations();
-    tell_cells(at);
-    for (const auto &term : terms)
-      term->add_response(at, tangent, displacement, sums);
+    if (patches != nullptr)
+      patches->add_response(at, tangent, displacement, sums);
     PointResponse response(parts, cells, tangent, at, sums);
     for_points_beside_held_nodes([&](const unsigned int point)
                                  { response.add(point, displacement); });

@@ -4,7 +4,9 @@
 #include <exemplar/potential/incremental_potential.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace Exemplar
 {
@@ -21,16 +23,6 @@ namespace Exemplar
         throw SolverFailure("The residual is not a finite number. Forces have grown without bound: "
                             "take smaller steps, or look at what the handles do.");
       return ratio;
-    }
-
-    std::vector<PotentialTerm *>
-    pointers_to(const PotentialTerms &elastic_terms, const PotentialTerms &terms)
-    {
-      std::vector<PotentialTerm *> all;
-      for (const PotentialTerms *some : { &elastic_terms, &terms })
-        for (const auto &term : *some)
-          all.push_back(term.get());
-      return all;
     }
   } // namespace
 
@@ -58,14 +50,12 @@ namespace Exemplar
   }
 
   IncrementalPotential::IncrementalPotential(const ElasticParts &parts,
-                                             PotentialTerms      elastic_terms,
                                              PotentialTerms      new_terms,
                                              TimeIntegrator     *integrator,
                                              const bool          in_parts)
-      : terms(std::move(new_terms)), tangent(parts, elastic_terms, cells, terms, in_parts),
-        cells(parts, std::move(elastic_terms), tangent.get_pattern()), weights(parts.weights),
-        integrator(integrator), fe_space(parts.fe_space), free_dofs(parts.free_dofs),
-        all_terms(pointers_to(cells.get_terms(), terms))
+      : terms(std::move(new_terms)), tangent(parts, cells, terms, in_parts),
+        cells(parts, tangent.get_pattern()), weights(parts.weights), integrator(integrator),
+        fe_space(parts.fe_space), free_dofs(parts.free_dofs)
   {
     for (const auto &term : terms)
       tangent.attach(*term);
@@ -75,7 +65,6 @@ namespace Exemplar
   IncrementalPotential::add_term(std::unique_ptr<PotentialTerm> term)
   {
     tangent.attach(*term);
-    all_terms.push_back(term.get());
     terms.push_back(std::move(term));
   }
 
@@ -83,7 +72,7 @@ namespace Exemplar
   IncrementalPotential::follow_parameters()
   {
     cells.follow_parameters();
-    for (PotentialTerm *term : all_terms)
+    for (const auto &term : terms)
       term->follow_parameters();
   }
 
@@ -97,19 +86,36 @@ namespace Exemplar
     {
       integrator->begin_step(start, step_size);
       in_dynamic_step = true;
-      cells.set_damping(integrator->stiffness_damping_factor(), integrator->history(start));
+      cells.begin_step(integrator->stiffness_damping_factor(), integrator->history(start));
     }
     if (weights.get_memory().in_use())
       weights.set_step(integrator != nullptr ? integrator->weight_step(start)
                                              : WeightStep{ start.weights, {} });
-    bool has_new_couplings = false;
-    for (PotentialTerm *term : all_terms)
-    {
-      term->begin_step(start);
-      has_new_couplings |= term->has_new_couplings();
-    }
-    if (free_dofs.exchange().any(has_new_couplings))
+    for (const auto &term : terms)
+      term->begin_step(start, step_size);
+    renew_terms(start);
+  }
+
+  TermChange
+  IncrementalPotential::renew_terms(const State &at)
+  {
+    TermChange change = TermChange::none;
+    for (const auto &term : terms)
+      change = std::max(change, term->renew({ at.positions, at.weights }));
+    change = static_cast<TermChange>(
+        std::lround(free_dofs.exchange().max(static_cast<double>(change))));
+    if (change == TermChange::couplings)
       tangent.renew_pattern();
+    return change;
+  }
+
+  TermChange
+  IncrementalPotential::renew(const State &at, Evaluation &evaluation)
+  {
+    const TermChange change = renew_terms(at);
+    if (change != TermChange::none)
+      add_terms(at.positions, evaluation);
+    return change;
   }
 
   void
@@ -117,8 +123,21 @@ namespace Exemplar
   {
     end.history = cells.get_field().advance_history(end.positions);
     end.dissipated += weights.get_memory().dissipation(end.weights).total();
-    for (PotentialTerm *term : all_terms)
+    std::vector<double> of_terms;
+    for (const auto &term : terms)
+    {
+      of_terms.push_back(term->dissipation(end).value_or(0.));
       term->end_step(end);
+    }
+    free_dofs.exchange().sum(of_terms);
+    end.dissipated = std::accumulate(of_terms.begin(), of_terms.end(), end.dissipated);
+  }
+
+  bool
+  IncrementalPotential::has_dissipating_terms(const State &at) const
+  {
+    return std::any_of(terms.begin(), terms.end(),
+                       [&](const auto &term) { return term->dissipation(at).has_value(); });
   }
 
   void
@@ -127,10 +146,10 @@ namespace Exemplar
     in_dynamic_step = false;
     cells.get_field().get_batches().set_history(at.history);
     cells.get_field().get_batches().set_step_size(0.);
-    cells.set_damping(0., {});
+    cells.leave_step();
     if (weights.get_memory().in_use())
       weights.set_step({ at.weights, {} });
-    for (PotentialTerm *term : all_terms)
+    for (const auto &term : terms)
       term->leave_step();
   }
 
@@ -138,7 +157,7 @@ namespace Exemplar
   IncrementalPotential::set_time(const double time, State &state)
   {
     state.time = time;
-    for (PotentialTerm *term : all_terms)
+    for (const auto &term : terms)
       term->set_time(time);
     state.weights = weights.at(time, state.weights);
   }
@@ -147,7 +166,7 @@ namespace Exemplar
   IncrementalPotential::is_driven(const State &from, const double time) const
   {
     bool differs = weights.at(time, from.weights) != from.weights;
-    for (const PotentialTerm *term : all_terms)
+    for (const auto &term : terms)
       differs |= term->differs(from.time, time);
     return free_dofs.exchange().any(differs);
   }
@@ -212,7 +231,7 @@ namespace Exemplar
   IncrementalPotential::residual(const State &at, const Evaluation &evaluation) const
   {
     double rounding = cells.rounding_force();
-    for (const PotentialTerm *term : all_terms)
+    for (const auto &term : terms)
       rounding += term->rounding_force();
     rounding = free_dofs.exchange().max(rounding);
     Residual residual;
@@ -231,8 +250,17 @@ namespace Exemplar
   IncrementalPotential::max_step(const Vector &positions, const Vector &displacement) const
   {
     double part = std::numeric_limits<double>::infinity();
-    for (const PotentialTerm *term : all_terms)
+    for (const auto &term : terms)
       part = std::min(part, term->max_step(positions, displacement));
     return min_of_all(free_dofs.exchange(), part);
+  }
+
+  std::string
+  IncrementalPotential::name_of_limit(const Vector &positions, const Vector &displacement) const
+  {
+    for (const auto &term : terms)
+      if (min_of_all(free_dofs.exchange(), term->max_step(positions, displacement)) < 1.)
+        return term->name();
+    return "";
   }
 } // namespace Exemplar

@@ -17,7 +17,7 @@ namespace Exemplar
   }
 
   void
-  InertiaTerm::begin_step(const State & /*start*/)
+  InertiaTerm::begin_step(const State & /*start*/, double /*step_size*/)
   {
     in_step        = true;
     predicted_size = max_entry(integrator.predicted_positions().begin(),

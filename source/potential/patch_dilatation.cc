@@ -51,14 +51,14 @@ namespace Exemplar
     cells     = &field;
     free_dofs = &all_free_dofs;
     scatter.emplace(patches, fe_space, pattern, all_free_dofs, field,
-                    !(pattern.products_are_apart && couples_by_products()));
+                    !(pattern.products_are_apart && couples_by_products(fe_space)));
     field.get_dilatation().resize(fe_space.n_points());
     if (field.get_batches().knows_volume())
       volumes.emplace(patches, field);
   }
 
   void
-  PatchDilatation::begin_step(const State & /*start*/)
+  PatchDilatation::begin_step()
   {
     const StrainDamping &of_cells = cells->get_damping();
     damping                       = {};
@@ -77,7 +77,7 @@ namespace Exemplar
   }
 
   void
-  PatchDilatation::hear_cells(const Vector &positions)
+  PatchDilatation::read_dilatations(const Vector &positions)
   {
     const DilatationField &dilatation = cells->get_dilatation();
     find_means(*scatter, cells->n_threads(), dilatation.traces.data(), means);
@@ -99,7 +99,7 @@ namespace Exemplar
   }
 
   void
-  PatchDilatation::tell_cells(const TermPoint &at)
+  PatchDilatation::write_pressures(const TermPoint &at)
   {
     struct Told
     {
@@ -136,7 +136,7 @@ namespace Exemplar
                   });
     guard.add_pressures(dilatation);
     if (volumes)
-      volumes->tell_cells(*cells);
+      volumes->write_pressures(*cells);
   }
 
   void
@@ -176,7 +176,7 @@ namespace Exemplar
   }
 
   void
-  PatchDilatation::add_weight_linear_term(const Vector & /*positions*/, std::vector<double> &c)
+  PatchDilatation::add_weight_linear_term(std::vector<double> &c) const
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       for (unsigned int weight = 0; weight < c.size(); ++weight)
@@ -236,38 +236,25 @@ namespace Exemplar
   PatchDilatation::add_tangent(const TermPoint     &at,
                                const Tangent        kind,
                                std::vector<double> &values,
-                               std::vector<double> &columns)
+                               std::vector<double> &columns,
+                               OuterProducts       *apart)
   {
+    const auto add_products = [&](PatchProducts products)
+    {
+      if (apart != nullptr && couples_by_products(fe_space))
+        scatter->add_products(products, *apart);
+      else
+        scatter->add_products(*cells, products, values);
+    };
     if (has_traces())
     {
       PatchProducts products = find_products(at.positions, kind);
       if (!columns.empty())
         add_columns(products.vectors, columns);
-      scatter->add_products(*cells, products, values);
+      add_products(std::move(products));
     }
     if (volumes)
-    {
-      PatchProducts products = find_products_of_volumes(kind);
-      scatter->add_products(*cells, products, values);
-    }
-  }
-
-  void
-  PatchDilatation::add_tangent_in_parts(const TermPoint &at,
-                                        const Tangent    kind,
-                                        std::vector<double> & /*values*/,
-                                        std::vector<double> &columns,
-                                        OuterProducts       &products)
-  {
-    if (has_traces())
-    {
-      const PatchProducts of_patches = find_products(at.positions, kind);
-      if (!columns.empty())
-        add_columns(of_patches.vectors, columns);
-      scatter->add_products(of_patches, products);
-    }
-    if (volumes)
-      scatter->add_products(find_products_of_volumes(kind), products);
+      add_products(find_products_of_volumes(kind));
   }
 
   void

@@ -77,13 +77,13 @@ namespace Exemplar
     dilatation.stretch.acts     = acts();
     if (!acts())
       return;
-    tell_cells(dilatation, share);
+    write_pressures(dilatation, share);
     cells.update_stretch_energies(positions);
     find_sums(dilatation);
   }
 
   void
-  PatchGuard::tell_cells(DilatationField &dilatation, const double share) const
+  PatchGuard::write_pressures(DilatationField &dilatation, const double share) const
   {
     StretchField &to = dilatation.stretch;
     to.reinit(fe_space.n_points());

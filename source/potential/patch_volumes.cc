@@ -30,7 +30,7 @@ namespace Exemplar
   }
 
   void
-  PatchVolumes::tell_cells(CellField &cells) const
+  PatchVolumes::write_pressures(CellField &cells) const
   {
     dealii::AlignedVector<double> &to = cells.get_dilatation().volume.pressures;
     for_each_part(cells.n_threads(), patches.size(), cells.n_threads(),

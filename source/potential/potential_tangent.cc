@@ -7,25 +7,16 @@ namespace Exemplar
 {
   namespace
   {
-    /// Of cells and terms.
-    SymmetricPattern
-    pattern_of(const FESpace        &fe_space,
-               const PotentialTerms &elastic_terms,
-               const PotentialTerms &terms,
-               const FreeDofs       &free_dofs,
-               const bool            in_parts)
+    NodePairs
+    couplings_of(const PotentialTerms &terms)
     {
       NodePairs couplings;
-      for (const PotentialTerms *some : { &elastic_terms, &terms })
-        for (const auto &term : *some)
-          if (!in_parts || !term->couples_by_products())
-          {
-            const NodePairs more = term->couplings();
-            couplings.insert(couplings.end(), more.begin(), more.end());
-          }
-      SymmetricPattern pattern   = make_pattern(fe_space, couplings, free_dofs);
-      pattern.products_are_apart = in_parts;
-      return pattern;
+      for (const auto &term : terms)
+      {
+        const NodePairs more = term->couplings();
+        couplings.insert(couplings.end(), more.begin(), more.end());
+      }
+      return couplings;
     }
 
     /// a + c (b - a)
@@ -46,30 +37,57 @@ namespace Exemplar
   } // namespace
 
   PotentialTangent::PotentialTangent(const ElasticParts   &parts,
-                                     const PotentialTerms &elastic_terms,
                                      ElasticPotential     &cells,
                                      const PotentialTerms &terms,
                                      const bool            in_parts)
-      : fe_space(parts.fe_space), free_dofs(parts.free_dofs), cells(cells), terms(terms),
-        pattern(pattern_of(fe_space, elastic_terms, terms, free_dofs, in_parts))
+      : parts(parts), cells(cells), terms(terms)
   {
+    make_pattern_of_couplings(in_parts);
   }
 
   void
   PotentialTangent::attach(PotentialTerm &term)
   {
-    term.attach(pattern, free_dofs, cells.get_field());
+    term.attach(pattern, parts.free_dofs, cells.get_field());
+  }
+
+  void
+  PotentialTangent::make_pattern_of_couplings(const bool in_parts)
+  {
+    const auto make = [&](const NodePairs &pairs)
+    {
+      SymmetricPattern made   = make_pattern(parts.fe_space, pairs, parts.free_dofs);
+      made.products_are_apart = in_parts;
+      return made;
+    };
+    NodePairs all        = ElasticPotential::couplings(parts, in_parts);
+    couplings            = couplings_of(terms);
+    const bool has_plain = plain != nullptr && plain_of == parts.free_dofs.version()
+                           && plain->products_are_apart == in_parts;
+    if (!has_plain)
+      plain = couplings.empty() ? nullptr : std::make_shared<const SymmetricPattern>(make(all));
+    plain_of = parts.free_dofs.version();
+    all.insert(all.end(), couplings.begin(), couplings.end());
+    pattern       = make(all);
+    pattern.plain = plain;
   }
 
   void
   PotentialTangent::renew_pattern()
   {
     const unsigned int version = pattern.version;
-    pattern = pattern_of(fe_space, cells.get_terms(), terms, free_dofs, pattern.products_are_apart);
+    make_pattern_of_couplings(pattern.products_are_apart);
     pattern.version = version + 1;
     cells.follow_pattern();
     for (const auto &term : terms)
       attach(*term);
+  }
+
+  void
+  PotentialTangent::follow_couplings()
+  {
+    if (parts.free_dofs.exchange().any(couplings != couplings_of(terms)))
+      renew_pattern();
   }
 
   void
@@ -94,7 +112,7 @@ namespace Exemplar
       products->clear();
     cells.assemble_tangent(kind, positions, at_weights, values, columns, products);
     for (const auto &term : terms)
-      add_tangent_of(*term, { positions, at_weights }, kind, values, columns, products);
+      term->add_tangent({ positions, at_weights }, kind, values, columns);
   }
 
   void

@@ -123,6 +123,9 @@ namespace Exemplar
       if (problem.body.exchange().n_processes() > 1 && problem.body.mesh.whole().n_cells < bound)
         notes.push_back(fmt::format(
             "with fewer than {} cells one process is faster: start without mpirun", bound));
+      if (problem.parameters.scene == SceneKind::statics
+          && problem.parameters.material.has("Relaxation time"))
+        notes.push_back("static scenes have no time: the Relaxing share of stresses has gone");
       std::string text;
       for (const std::string &note : notes)
         text += "Note      " + note + '\n';

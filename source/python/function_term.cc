@@ -4,6 +4,8 @@
 #include <exemplar/python/function_answer.h>
 #include <exemplar/python/function_term.h>
 
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
 #include <fmt/core.h>
 
 #include <cmath>
@@ -23,6 +25,7 @@ namespace Exemplar::Python
           : function(function), term_name(std::move(name)), time(state.time)
       {
         accept(state);
+        learn_couplings(accepted);
       }
 
       std::string
@@ -37,12 +40,6 @@ namespace Exemplar::Python
         return { pairs.begin(), pairs.end() };
       }
 
-      bool
-      has_new_couplings() const override
-      {
-        return is_new;
-      }
-
       void
       attach(const SymmetricPattern &new_pattern,
              const FreeDofs         &new_free_dofs,
@@ -53,9 +50,15 @@ namespace Exemplar::Python
       }
 
       void
-      begin_step(const State &start) override
+      begin_step(const State &start, double /*step_size*/) override
       {
         accept(start);
+      }
+
+      TermChange
+      renew(const TermPoint &at) override
+      {
+        return learn_couplings(ask(at.positions, time)) ? TermChange::couplings : TermChange::none;
       }
 
       void
@@ -128,6 +131,21 @@ namespace Exemplar::Python
         columns.emplace_back("energy_" + term_name, energy);
       }
 
+      void
+      save(boost::archive::binary_oarchive &archive) const override
+      {
+        const NodePairs known = couplings();
+        archive        &known;
+      }
+
+      void
+      load(boost::archive::binary_iarchive &archive) override
+      {
+        NodePairs known;
+        archive  &known;
+        pairs = { known.begin(), known.end() };
+      }
+
       std::size_t
       memory_consumption() const override
       {
@@ -143,17 +161,22 @@ namespace Exemplar::Python
       }
 
     private:
-      /// Ask for the answer at a state, whose couplings join those that are known.
       void
       accept(const State &state)
       {
         if (!accepted.is_for(state.positions, state.time))
           accepted = ask(state.positions, state.time);
+      }
+
+      /// The couplings of an answer join those that are known. Returns whether there are new ones.
+      bool
+      learn_couplings(const FunctionAnswer &answer)
+      {
         const std::size_t n_before = pairs.size();
-        for (const MatrixEntry &entry : accepted.hessian)
+        for (const MatrixEntry &entry : answer.hessian)
           if (entry.row / 3 != entry.column / 3)
             pairs.emplace(entry.column / 3, entry.row / 3);
-        is_new = pairs.size() > n_before;
+        return pairs.size() > n_before;
       }
 
       /// The last answers are kept: that of the state, so that a step that fails by the function can be
@@ -171,10 +194,10 @@ namespace Exemplar::Python
       [[noreturn]] void
       refuse_new_coupling(const MatrixEntry &entry) const
       {
-        throw UserError(fmt::format(
-            "{}: within a step the Hessian couples the nodes {} and {}, which it did not where the "
-            "step began. Return zeros for all that it may couple: entries with the value 0 count.",
-            term_name, entry.row / 3, entry.column / 3));
+        throw UserError(fmt::format("{}: the Hessian couples the nodes {} and {}, which it did not "
+                                    "where the iteration began. Return zeros for "
+                                    "all that it may couple: entries with the value 0 count.",
+                                    term_name, entry.row / 3, entry.column / 3));
       }
 
       const py::object                               &function;
@@ -184,7 +207,6 @@ namespace Exemplar::Python
       double                                          time;
       FunctionAnswer                                  accepted, last;
       std::set<std::pair<unsigned int, unsigned int>> pairs; ///< of nodes, that are coupled
-      bool                                            is_new = false;
     };
   } // namespace
 

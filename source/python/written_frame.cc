@@ -3,7 +3,7 @@
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/written_frame.h>
 #include <exemplar/run/frames/frame_formats.h>
-#include <exemplar/run/frames/frame_writer.h>
+#include <exemplar/run/output/frame_output.h>
 #include <exemplar/run/output/output_directory.h>
 #include <exemplar/run/problem/finiteness.h>
 
@@ -44,19 +44,10 @@ namespace Exemplar::Python
       return file;
     }
 
-    /// The state, as a run shows it.
     Frame
-    frame_of(Problem &problem)
+    finite_frame(Problem &problem)
     {
-      const State &state = problem.state;
-      Frame        frame;
-      frame.step         = state.step;
-      frame.time         = state.time;
-      frame.positions    = state.positions;
-      frame.displacement = state.positions;
-      frame.displacement -= problem.body.fe_space.rest_positions();
-      frame.velocities = state.velocities;
-      frame.cells      = problem.potential.get_cells().cell_results(state.positions, state.weights);
+      Frame frame = frame_of(problem);
       if (const std::string what = what_is_not_finite(frame.cells); !what.empty())
         throw UserError("write(file): the frame would hold " + what
                         + " that are not finite numbers. Take smaller steps, and look at what "
@@ -67,7 +58,7 @@ namespace Exemplar::Python
     void
     write_frame(Problem &problem, const fs::path &file)
     {
-      const Frame frame = frame_of(problem);
+      const Frame frame = finite_frame(problem);
       try
       {
         vtu_format()

@@ -72,10 +72,11 @@ namespace Exemplar
       StepClock::Scope scope(clock, Phase::evaluate);
       potential.evaluate(trial, RotationUse::update, evaluation);
     }
+    const bool is_same = potential.renew(trial, evaluation) == TermChange::none;
     const bool goes_on = report_iteration(potential, evaluation, trial, report);
     if (parameters.method == Method::one_pass)
       report.status = SolveStatus::one_pass;
-    else if (has_met(parameters.tolerance, report))
+    else if (is_same && has_met(parameters.tolerance, report))
       report.status = SolveStatus::converged;
     else if (report.iterations == parameters.maximum_iterations)
       report.status = SolveStatus::iteration_limit;

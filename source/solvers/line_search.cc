@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/solvers/line_search.h>
 
 #include <cmath>
@@ -11,6 +12,17 @@ namespace Exemplar
     has_not_risen(const Merit &now, const Merit &before)
     {
       return now.potential <= before.potential + 1e-12 * std::abs(before.potential);
+    }
+
+    constexpr unsigned int max_halvings_beside_held = 20;
+
+    /// A displacement of which free nodes go a part.
+    Vector
+    with_part_of_free(const FreeDofs &free_dofs, Vector displacement, const double part)
+    {
+      for (const unsigned int dof : free_dofs.local_list())
+        displacement[dof] *= part;
+      return displacement;
     }
   } // namespace
 
@@ -45,10 +57,25 @@ namespace Exemplar
   {
     Vector displacement = to;
     displacement -= from;
-    const double part = potential.max_step(from, displacement);
+    double part = potential.max_step(from, displacement);
     if (part >= 1.)
       return;
-    for (const unsigned int dof : potential.get_free_dofs().local_list())
-      to[dof] = from[dof] + part * displacement[dof];
+    const FreeDofs &free_dofs     = potential.get_free_dofs();
+    const Vector    of_held       = with_part_of_free(free_dofs, displacement, 0.);
+    const bool      is_held_moved = free_dofs.exchange().any(!of_held.all_zero());
+    if (const std::string name = is_held_moved ? potential.name_of_limit(from, of_held) : "";
+        !name.empty())
+      throw SolverFailure(
+          "Handles cannot move their nodes so far in a step: the term '" + name
+          + "' does not let them. Take smaller steps, or move the handles another way.");
+    // beside held nodes, which go all of their way, free ones may have to go less
+    Vector kept = with_part_of_free(free_dofs, displacement, part);
+    for (unsigned int halving = 0; is_held_moved && potential.max_step(from, kept) < 1.; ++halving)
+    {
+      part = halving < max_halvings_beside_held ? 0.5 * part : 0.;
+      kept = with_part_of_free(free_dofs, displacement, part);
+    }
+    to = from;
+    to += kept;
   }
 } // namespace Exemplar

@@ -69,14 +69,14 @@ namespace Exemplar
     potential.set_time(time, trial.state);
     const Vector *inertial = potential.inertial_positions();
     if (inertial == nullptr || !is_whole_step)
-    {
       predict_along_tangent(start, trial, evaluation);
-      return;
+    else
+    {
+      // inertia predicts better than any tangent: x + h v
+      for (const unsigned int dof : potential.get_free_dofs().local_list())
+        trial.state.positions[dof] = (*inertial)[dof];
+      handles.move(time, trial.state.positions);
     }
-    // inertia predicts better than any tangent: x + h v
-    for (const unsigned int dof : potential.get_free_dofs().local_list())
-      trial.state.positions[dof] = (*inertial)[dof];
-    handles.move(time, trial.state.positions);
     keep_within_max_step(potential, start.state.positions, trial.state.positions);
   }
 
@@ -135,7 +135,6 @@ namespace Exemplar
       if (!has_factor)
         system.factorize(from.positions, from.weights, tangent == Tangent::convex ? 1. : 0.);
       system.add(system.solve(from, evaluation), trial.state);
-      keep_within_max_step(potential, from.positions, trial.state.positions);
       if (tangent == Tangent::exact && !has_factor && is_without_inertia(potential))
         start.linearization
             = { from.positions, from.weights, from.history, system.n_factorizations() };
@@ -194,8 +193,9 @@ namespace Exemplar
       go_on_with_same_factor(trial.state, evaluation);
     for (unsigned int iteration = 0;; ++iteration)
     {
+      const bool is_same = potential.renew(trial.state, evaluation) == TermChange::none;
       const bool goes_on = report_iteration(potential, evaluation, trial.state, report);
-      const bool is_met  = has_met(parameters.tolerance, report);
+      const bool is_met  = is_same && has_met(parameters.tolerance, report);
       if (is_met && (iteration == max_iterations || is_placed(trial.state, evaluation)))
         report.status = SolveStatus::converged;
       else if (!goes_on)

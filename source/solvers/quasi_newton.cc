@@ -10,8 +10,9 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr unsigned int max_iterations        = 7; ///< with one metric in a step
-    constexpr unsigned int max_metrics           = 2; ///< that a step may ask for
+    constexpr unsigned int max_iterations        = 7;  ///< with one metric in a step
+    constexpr unsigned int max_metrics           = 2;  ///< that a step may ask for
+    constexpr unsigned int max_changes           = 30; ///< of terms in a step
     constexpr unsigned int max_halvings          = 5;
     constexpr double       max_contraction       = 0.9;
     constexpr double       min_error_over_length = 2.2;
@@ -94,6 +95,7 @@ namespace Exemplar
     keep_within_max_step(potential, accepted.positions, trial.positions);
     rebuild_metrics(accepted, step_size);
     potential.minimize_over_weights(trial, RotationUse::update, evaluation);
+    potential.renew(trial, evaluation);
   }
 
   void
@@ -121,12 +123,20 @@ namespace Exemplar
   {
     return { trial.positions,
              trial.weights,
+             potential.get_tangent().couplings_of_terms(),
              potential.changes_between_steps() ? start : State(),
              step_size,
              potential.mass_factor(),
              0,
              0,
              0 };
+  }
+
+  bool
+  QuasiNewton::has_other_couplings() const
+  {
+    return potential.get_free_dofs().exchange().any(
+        history.couplings != potential.get_tangent().couplings_of_terms());
   }
 
   void
@@ -141,8 +151,9 @@ namespace Exemplar
     if (next.mass_factor != potential.mass_factor())
       next = {};
     // where Newton's method has taken over, there is no metric, but steps since it was made
-    const bool has_metric
-        = history.positions.size() > 0 && history.mass_factor == potential.mass_factor();
+    const bool has_metric = history.positions.size() > 0
+                            && history.mass_factor == potential.mass_factor()
+                            && !has_other_couplings();
     if (has_metric && is_next_due())
       take_next_metric();
     if (!has_metric || (is_slow() && !begin_next_metric(start, step_size, trial)))
@@ -262,10 +273,21 @@ namespace Exemplar
     const FreeDofs     &free_dofs = potential.get_free_dofs();
     std::vector<double> old_gradient, old_weights;
     Iteration           iteration;
-    unsigned int        n_metrics = 0, n_with_metric = 0;
+    unsigned int        n_metrics = 0, n_with_metric = 0, n_changes = 0;
     free_dofs.gather(evaluation.gradient, iteration.gradient);
-    while (!has_met(parameters.tolerance, report))
+    for (bool is_near = false;;)
     {
+      if (potential.renew(trial, evaluation) != TermChange::none)
+      {
+        report_iteration(potential, evaluation, trial, report);
+        free_dofs.gather(evaluation.gradient, iteration.gradient);
+        if (++n_changes > max_changes)
+          return;
+        if (has_other_couplings())
+          renew_metric(accepted, step_size, trial);
+      }
+      else if (is_near || has_met(parameters.tolerance, report))
+        break;
       old_weights             = trial.weights;
       const double slope      = find_step(trial, evaluation, iteration);
       const bool   is_descent = n_with_metric < max_iterations && slope < 0.
@@ -282,6 +304,7 @@ namespace Exemplar
         free_dofs.gather(evaluation.gradient, iteration.gradient);
         renew_metric(accepted, step_size, trial);
         n_with_metric = 0;
+        is_near       = false;
         continue;
       }
       ++report.iterations;
@@ -294,8 +317,7 @@ namespace Exemplar
       const double ratio    = norm(iteration.gradient) / old_norm;
       learn(trial, old_weights, old_gradient, report.step_length, iteration);
       report_iteration(potential, evaluation, trial, report);
-      if (has_arrived(accepted, trial, report, ratio, iteration))
-        break;
+      is_near = has_arrived(accepted, trial, report, ratio, iteration);
     }
     report.status = SolveStatus::converged;
   }

@@ -49,7 +49,7 @@ namespace Exemplar
     keys.add("Step tolerance", step_tolerance,
              "Error of the positions at which a step of quasi newton has converged, "
              "over the greatest displacement in this step; its relative residual must be "
-             "as small, too. Not used by other methods.",
+             "as small, too. It has converged at Tolerance as well. Not used by other methods.",
              Bounds{ 0., 1. });
     keys.add("Maximum iterations", maximum_iterations,
              "Iterations after which a step without convergence ends the run with status "

@@ -11,8 +11,8 @@ namespace Exemplar
                          StepClock            &clock,
                          const bool            turns_freely)
       : potential(potential), make_system(std::move(new_make_system)), system(make_system()),
-        pattern_version(potential.get_tangent().get_pattern().version), clock(clock),
-        turns_freely(turns_freely)
+        pattern_version(potential.get_tangent().get_pattern().version),
+        dofs_version(potential.get_free_dofs().version()), clock(clock), turns_freely(turns_freely)
   {
   }
 
@@ -64,8 +64,14 @@ namespace Exemplar
     if (pattern_version == potential.get_tangent().get_pattern().version)
       return;
     background.clear();
-    system.reset(); // its memory first
-    system          = make_system();
+    if (dofs_version == potential.get_free_dofs().version())
+      system->reinit(potential.get_tangent().get_pattern());
+    else
+    {
+      system.reset(); // its memory first
+      system       = make_system();
+      dofs_version = potential.get_free_dofs().version();
+    }
     pattern_version = potential.get_tangent().get_pattern().version;
   }
 

@@ -129,7 +129,7 @@ class BrowserTest(unittest.TestCase):
     def test_export_refuses(self):
         (self.here / "mine.html").write_text("mine")
         (self.here / "empty").mkdir()
-        for call, words in ((["empty", "--html", "x.html"], "animation.pvd"), (["nothing", "--html", "x.html"], "animation.pvd"),
+        for call, words in ((["empty", "--html", "x.html"], "animation.pvd"), (["nothing", "--html", "x.html"], "nothing is no directory"),
                             (["empty", "--html", "mine.html"], "Nothing has been changed"), (["empty", "--html", "no/x.html"], "no directory")):
             done = call_program("export", *call, cwd=self.here, timeout=60)
             self.assertEqual(done.returncode, 1)

@@ -856,6 +856,44 @@ def plastic_density(e, last, accumulated, h, p):
             + viscosity / (2 * h) * Delta**2)
 
 
+class OfViscoelasticBodies(Formulas):
+    def test_relaxing_cells(self):
+        """(41) over two steps of a dynamic scene, with examples and without: energies, what is dissipated, and forces by differences."""
+        h, tau, r = 0.01, 0.03, 0.4
+        for eta in 0, ETA:
+            with self.subTest(eta=eta):
+                problem = make(scene(Scene="dynamic", Handles={}, Material={"Density": 900, "Relaxation time": tau, "Relaxing share": r},
+                                     Time={"Step": h, "End": 1}, **({"Examples": examples("scaled")} if eta else {})))
+                body = Body(NODES, CELLS, [NODES @ F.T for F in POSES], Law())
+                problem.state = problem.state.replace(velocities=NODES @ np.array([[9, 4, -20], [3, -7, 2], [8, 3, 1.]]))
+                q, dissipated, f = np.zeros((3, 3)), 0, h / (tau + h)
+
+                def relaxed(E):
+                    return stress(E) - 2 * MU * r * dev(E)
+                for _ in range(2):
+                    problem.step()
+                    e = polar(body.F(problem.positions)[0])[1] - I
+                    way = dev(e) - q
+                    density = r * MU * (1 - f) * dot(way, way)
+                    dissipated += body.V[0] * 2 * f * density
+                    self.near(problem.statistics["energy_dissipated"], dissipated, 1e-9)
+                    self.near(problem.statistics["energy_elastic"], body.V[0] * (dot(e, relaxed(e)) / 2 + (1 - f) * density), 1e-9)
+                    q = q + f * way
+                mass = body.V[0] * 900 / 20 * (np.ones((4, 4)) + np.eye(4))
+                x_hat = problem.positions + h * problem.velocities
+                x = moved(problem.positions, I, 0.1, 2)
+                e, u = polar(body.F(x)[0])[1] - I, x - x_hat
+                D = body.D(WEIGHTS)[0] if eta else np.zeros((3, 3))
+                psi = dot(e - D, relaxed(e - D)) / 2 + r * MU * (1 - f) * dot(dev(e) - q, dev(e) - q)
+                given, ridge = ((WEIGHTS,), SIGMA / 2 * WEIGHTS @ WEIGHTS) if eta else ((), 0)
+                self.near(problem.energy(x, *given), body.V[0] * psi + np.sum(u * (mass @ u)) / (2 * h**2) + ridge, 1e-10)
+                self.near(problem.gradient(x, *given).ravel(), differences(lambda y: problem.energy(y, *given), x, 1e-6).ravel(), 1e-6)
+                self.near(problem.hessian(x, *given).toarray(), differences(lambda y: problem.gradient(y, *given).ravel(), x, 1e-7), 1e-6)
+                if eta:
+                    self.near(problem.weight_gradient(x, WEIGHTS), differences(lambda w: problem.energy(x, w), WEIGHTS, 1e-5), 1e-6)
+                    self.near(problem.coupling(x, WEIGHTS), -differences(lambda w: problem.gradient(x, w).ravel(), WEIGHTS, 1e-4).T, 1e-7)
+
+
 class OfPlasticBodies(Formulas):
     def test_yielding_cells(self):
         """(32), (33), also with fibres and beyond the greatest plastic strain, over two steps of a dynamic scene."""

@@ -51,7 +51,7 @@ namespace Exemplar::Testing
     return contents;
   }
 
-  /// What makes cells of that law: fibres along a curve, nine constants, a yield stress.
+  /// What makes cells of that law: fibres along a curve, nine constants, a yield stress, a relaxation time.
   inline MaterialParameters
   material_of_law(const CellLaw law)
   {
@@ -59,6 +59,8 @@ namespace Exemplar::Testing
     parameters.everywhere.fibre_direction = "1; 0.3*x; 0.5-z";
     if (law == CellLaw::fibrous_plastic)
       parameters.everywhere.own["Yield stress"] = 2e4;
+    if (law == CellLaw::viscoelastic)
+      parameters.everywhere.own["Relaxation time"] = 0.3;
     if (law == CellLaw::fibrous || law == CellLaw::anisotropic || law == CellLaw::fibrous_plastic)
       parameters.everywhere.own["Fibre stiffness"] = 3e6;
     if (law == CellLaw::anisotropic)
@@ -181,17 +183,6 @@ namespace Exemplar::Testing
     Examples         none;
   };
 
-  /// The patches of a body, if it has any.
-  inline PotentialTerms
-  elastic_terms(const Body &body, const ExamplePoses &poses)
-  {
-    PotentialTerms terms;
-    if (body.patches.size() > 0)
-      terms.push_back(
-          std::make_unique<PatchDilatation>(body.patches, poses, body.fe_space, body.material));
-    return terms;
-  }
-
   /// How a body is divided.
   struct Discretisation
   {
@@ -205,6 +196,13 @@ namespace Exemplar::Testing
     if (body.patches.size() == 0)
       return {};
     return PatchScatter::couplings(body.patches, body.fe_space);
+  }
+
+  inline const Patches &
+  no_patches()
+  {
+    static const Patches none;
+    return none;
   }
 
   /// The elastic potential of a body.
@@ -225,9 +223,8 @@ namespace Exemplar::Testing
                   const FreeDofs    &free_dofs)
         : MatrixPattern{ make_pattern(body.fe_space, couplings_of(body), free_dofs),
                          body.examples(ExampleParameters()) },
-          ElasticPotential({ laws, body.fe_space, body.material, body.cell_material,
+          ElasticPotential({ laws, body.fe_space, body.material, body.cell_material, body.patches,
                              *given(examples).poses, *given(examples).weights, free_dofs },
-                           elastic_terms(body, *given(examples).poses),
                            matrix_pattern)
     {
     }
@@ -251,15 +248,6 @@ namespace Exemplar::Testing
     node_rotations(std::vector<float> &rotations)
     {
       get_field().node_rotations(rotations);
-    }
-
-    /// A step with this stiffness damping.
-    void
-    begin_step(const double s, const std::vector<WeightedPositions> &history)
-    {
-      set_damping(s, history);
-      for (const auto &term : get_terms())
-        term->begin_step(State());
     }
 
     ElasticEvaluation

@@ -161,9 +161,8 @@ namespace Exemplar::Testing
           free_dofs(body.fe_space.n_dofs(), all_but_two(), Exchange::serial()),
           none(body.examples(ExampleParameters())),
           handles({}, body.mesh, body.fe_space, TimeAxis::of_increments(TimeParameters())),
-          potential({ CellLaw::linear, body.fe_space, body.material, body.material, *none.poses,
-                      *none.weights, free_dofs },
-                    {},
+          potential({ CellLaw::linear, body.fe_space, body.material, body.material, no_patches(),
+                      *none.poses, *none.weights, free_dofs },
                     terms(landscapes),
                     nullptr),
           system(

@@ -46,6 +46,11 @@ namespace Exemplar
     virtual OperatorTraits
     traits() const = 0;
 
+    /// Have another pattern of A with the same unknowns. Throws as SpdOperator::reinit().
+    virtual void
+    reinit(const SymmetricPattern &pattern)
+        = 0;
+
     /// The values of A on its pattern, to be overwritten before factorize().
     virtual std::vector<double> &
     matrix_values()

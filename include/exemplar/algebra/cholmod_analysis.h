@@ -46,10 +46,12 @@ namespace Exemplar
   cholmod_sparse
   cholmod_view(const SymmetricPattern &pattern, const double *values);
 
-  /// CHOLMOD's analysis of a pattern, in the order of which it expects the least fill. The factor is
-  /// the caller's to free. Throws SolverFailure.
+  /// CHOLMOD's analysis of a pattern, in this order of elimination, which it refines, or, if that is empty, in the one of
+  /// which it expects the least fill. The factor is the caller's to free. Throws SolverFailure.
   cholmod_factor *
-  analyze(const SymmetricPattern &pattern, CholmodCommon &common);
+  analyze(const SymmetricPattern &pattern,
+          CholmodCommon          &common,
+          const std::vector<int> &order = {});
 
   /// The structure of the factor that CHOLMOD has analysed for a pattern.
   FactorStructure

@@ -25,6 +25,9 @@ namespace Exemplar
     /// Whether values on it lack what terms give as OuterProducts, of which the couplings are no part
     /// of it.
     bool products_are_apart = false;
+    /// The pattern without couplings that come and go, in whose order of elimination they may stand; null: it has
+    /// none of these.
+    std::shared_ptr<const SymmetricPattern> plain = {};
 
     unsigned int
     n() const
@@ -79,7 +82,8 @@ namespace Exemplar
     virtual OperatorTraits
     traits() const = 0;
 
-    /// Throws SolverFailure if the pattern is too large for the library.
+    /// Have this pattern from now on, in an order of elimination that depends on it and its plain one alone. Throws
+    /// SolverFailure if the pattern is too large for the library.
     virtual void
     reinit(const SymmetricPattern &pattern)
         = 0;

@@ -91,9 +91,9 @@ namespace Exemplar
         function(constants, "Material/" + region_name(name));
     }
 
-    /// Whether some cells have a yield stress.
+    /// Whether a constant that some law adds, by its name, is greater than 0 in some section.
     bool
-    may_yield() const;
+    has(const std::string &constant) const;
 
     /// Whether some have a constant by which ModelTraits::chosen_by may choose their law.
     bool

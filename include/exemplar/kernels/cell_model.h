@@ -10,6 +10,7 @@
 #include <exemplar/kernels/neo_hookean_cell.h>
 #include <exemplar/kernels/plastic_cell.h>
 #include <exemplar/kernels/polar_decomposition.h>
+#include <exemplar/kernels/viscoelastic_cell.h>
 
 #include <tuple>
 #include <vector>
@@ -32,6 +33,7 @@ namespace Exemplar
     anisotropic,
     plastic,
     neo_hookean,
+    viscoelastic,
     fibrous_plastic
   };
 
@@ -44,6 +46,7 @@ namespace Exemplar
                               AnisotropicCell<Number>,
                               PlasticCell<Number>,
                               NeoHookeanCell<Number>,
+                              ViscoelasticCell<Number>,
                               FibrousPlasticCell<Number>>;
 
   /// Stands for a law in calls of templates; without data.
@@ -153,6 +156,18 @@ namespace Exemplar
   {
     return with_cell_model<double>(law, [](auto model)
                                    { return decltype(model)::type::Constants::n_numbers; });
+  }
+
+  /// The combinations that a law refuses.
+  inline std::vector<Refusal>
+  refusals_of(const CellLaw law)
+  {
+    return with_cell_model<double>(law,
+                                   [](auto model)
+                                   {
+                                     const auto &refusals = decltype(model)::type::refusals;
+                                     return std::vector<Refusal>(refusals.begin(), refusals.end());
+                                   });
   }
 
   /// The constants that a law adds to those of elasticity.h, in their order.

@@ -247,6 +247,15 @@ namespace Exemplar
     }
 
   protected:
+    /// Have another elasticity, the guard of the stretch, too. To be called before a target or damping is set; what elasticity
+    /// alone makes, elastic_density() and elastic_scale(), stays that of before.
+    void
+    set_elasticity(const OfLaw &C)
+    {
+      material   = C;
+      elasticity = C.isotropic_part();
+    }
+
     /// Of phi, with S.
     Number
     change_of_guard(const Matrix3<Number> &dS) const

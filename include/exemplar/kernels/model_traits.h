@@ -25,6 +25,32 @@ namespace Exemplar
     double importance  = 0.;  ///< eta; 0 without examples
   };
 
+  /// What a law may have no place beside: in a scene, or in the section of Material that chooses the law.
+  enum class Beside
+  {
+    interpolation, ///< Scene = interpolation
+    statics,       ///< Scene = static
+    other_strain, ///< Model/Strain other than corotational, or Model/Gradient other than consistent
+    grain,        ///< fibres or orthotropy in some section
+    fibres,       ///< Fibre stiffness in the same section
+    orthotropy,   ///< Orthotropy in the same section
+    memory,       ///< a law that remembers, in some section
+    other_memory, ///< another law that remembers, in the same section
+    unblended_examples, ///< examples with an Energy other than blended
+    own_elasticity,     ///< examples with an elasticity of their own
+    varying_importance  ///< examples with an importance that differs between cells
+  };
+
+  /// A combination that a law refuses.
+  struct Refusal
+  {
+    Beside      beside;
+    const char *words; ///< behind the law's key, with the remedy; {} stands for that key
+    const char *constant
+        = nullptr; ///< refused only where this constant of the law is greater than 0, and its key
+                   ///< stands for the law's
+  };
+
   /// What distinguishes the models of a cell, beside their formulas. Each model has a constant
   /// `traits`.
   struct ModelTraits
@@ -66,10 +92,10 @@ namespace Exemplar
 
     static constexpr std::size_t not_remembered = std::numeric_limits<std::size_t>::max();
 
-    /// Which of these numbers is the equivalent plastic strain that frames show.
+    /// Index in the history of the equivalent plastic strain that frames show.
     std::size_t plastic_strain = not_remembered;
 
-    /// And which the energy that has been spent on what stays [J/m^3].
+    /// Index in the history of the dissipated energy density [J/m^3].
     std::size_t dissipated = not_remembered;
 
     /// It has an energy of J = det F beside that of the strain. Then the volume part of that energy may be

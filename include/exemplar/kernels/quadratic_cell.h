@@ -20,6 +20,8 @@ namespace Exemplar
   public:
     using Constants = OfLaw;
 
+    static constexpr std::array<Refusal, 0> refusals{};
+
     /// The change of e with F, as the rotation sees it.
     static Matrix3<Number>
     strain_change(const Matrix3<Number> &rotation,

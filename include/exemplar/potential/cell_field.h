@@ -178,7 +178,7 @@ namespace Exemplar
       return node_positions.size() / 4;
     }
 
-    /// Of loops over cells and patches.
+    /// Threads of the loops over cells and patches.
     int
     n_threads() const
     {
@@ -209,7 +209,7 @@ namespace Exemplar
       return dilatation;
     }
 
-    /// Of what stands beside the cells: for the loops over patches.
+    /// Geometry, laws and constants of the points, for loops over patches.
     CellArrays
     arrays()
     {

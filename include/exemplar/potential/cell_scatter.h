@@ -29,11 +29,12 @@ namespace Exemplar
                 const SymmetricPattern &pattern,
                 const FreeDofs         &free_dofs);
 
-    /// Anew for the pattern and the free degrees of freedom as they are now.
+    /// Follow the pattern and the free degrees of freedom as they are now.
     void
     reinit();
 
-    /// Of TangentTask, from a batch of points on; those of mixed cells are left out.
+    /// TangentTask::positions from the first batch of points on; -1 for cells with both free and held
+    /// components at a node (mixed cells).
     const int *
     positions() const
     {

@@ -6,7 +6,7 @@
 #include <exemplar/body/laws_of_cells.h>
 #include <exemplar/potential/cell_scatter.h>
 #include <exemplar/potential/evaluation.h>
-#include <exemplar/potential/potential_term.h>
+#include <exemplar/potential/patch_dilatation.h>
 
 #include <array>
 #include <memory>
@@ -31,7 +31,8 @@ namespace Exemplar
     LawsOfCells         laws;
     const FESpace      &fe_space;
     const Material     &material;      ///< of the body
-    const Material     &cell_material; ///< of the cells' own energies, beside those of terms
+    const Material     &cell_material; ///< of the cells' own energies, beside those of patches
+    const Patches      &patches;       ///< none: cells have their own volume energies
     const ExamplePoses &examples;
     ExampleWeights     &weights;
     const FreeDofs     &free_dofs;
@@ -45,35 +46,38 @@ namespace Exemplar
     double stress_norm = 0.; ///< (sum V T^2)^(1/2)
   };
 
-  /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping: sums over the cells of the body, and
-  /// then its terms, of
+  /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping: sums over the cells and patches of the body of
   /// energies and forces, the matrix A and the columns G of Eq. (10). Rotations are kept ("frozen") until
   /// update_rotations() or an evaluation that updates them. Positions, displacements and forces are
   /// by degree of freedom.
   class ElasticPotential
   {
   public:
-    /// The terms are nobody else's. `pattern`, with their couplings, must outlive the potential.
-    ElasticPotential(const ElasticParts     &parts,
-                     PotentialTerms          terms,
-                     const SymmetricPattern &pattern);
+    /// `pattern`, with the couplings() of the parts unless products are apart, must outlive the potential.
+    ElasticPotential(const ElasticParts &parts, const SymmetricPattern &pattern);
+
+    /// Pairs of nodes that its tangent couples beside those that share a cell; `in_parts`: but those of outer products.
+    static NodePairs
+    couplings(const ElasticParts &parts, bool in_parts);
 
     /// The pattern, or what is held, is another from now on.
     void
     follow_pattern();
 
-    /// As StrainDamping::set().
-    void
-    set_damping(const double s, const std::vector<WeightedPositions> &history)
+    /// Whether its tangent has outer products, which a pattern may be without.
+    bool
+    couples_by_products() const
     {
-      cells.set_damping(s, history);
+      return patches != nullptr && PatchDilatation::couples_by_products(parts.fe_space);
     }
 
-    const PotentialTerms &
-    get_terms() const
-    {
-      return terms;
-    }
+    /// A step begins with this damping, as StrainDamping::set() has it.
+    void
+    begin_step(double s, const std::vector<WeightedPositions> &history);
+
+    /// From now on states are evaluated without a step that leads to them.
+    void
+    leave_step();
 
     CellField &
     get_field()
@@ -132,7 +136,7 @@ namespace Exemplar
       return (1. + 8. * cells.get_damping().factor()) * rounding.force;
     }
 
-    /// The same for the derivative of the energy by any weight [J].
+    /// A derivative of the energy by a weight [J] that is nothing but the rounding of the positions.
     double
     rounding_weight_gradient() const;
 
@@ -147,14 +151,10 @@ namespace Exemplar
     CellTask
     task(const Vector &positions, const std::vector<double> &weights, RotationUse rotations);
 
-    /// Let the terms know the dilatations, if they ask for them, and get how loops that follow at these
-    /// positions find the rotations.
+    /// Let the patches, if there are any, know the dilatations of the cells and these the pressures at a point. Returns
+    /// how loops that follow there find the rotations.
     RotationUse
-    find_dilatations(const Vector &positions, RotationUse rotations);
-
-    /// Terms write what cells must know.
-    void
-    tell_cells(const TermPoint &at);
+    find_pressures(const TermPoint &at, RotationUse rotations);
 
     void
     add_penalty(const std::vector<double> &weights, ElasticEvaluation &result) const;
@@ -199,12 +199,12 @@ namespace Exemplar
                      const TermPoint &at,
                      ElasticSums     &sums);
 
-    const ElasticParts      parts;
-    const SymmetricPattern &pattern;
-    CellField               cells;
-    CellScatter             scatter;
-    const PotentialTerms    terms;
-    CellRounding            rounding;
+    const ElasticParts                     parts;
+    const SymmetricPattern                &pattern;
+    CellField                              cells;
+    CellScatter                            scatter;
+    const std::unique_ptr<PatchDilatation> patches; ///< null without patches
+    CellRounding                           rounding;
   };
 } // namespace Exemplar
 

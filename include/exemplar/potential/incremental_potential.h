@@ -51,16 +51,14 @@ namespace Exemplar
   class IncrementalPotential
   {
   public:
-    /// `elastic_terms` are summands of Psi, see PotentialTerm; `integrator` is null unless the scene is
-    /// dynamic. The terms are nobody else's; all else must outlive the potential. If `in_parts`, the
+    /// `integrator` is null unless the scene is dynamic. The terms are nobody else's; all else must outlive the potential. If `in_parts`, the
     /// pattern is without the couplings of outer products.
     IncrementalPotential(const ElasticParts &parts,
-                         PotentialTerms      elastic_terms,
                          PotentialTerms      terms,
                          TimeIntegrator     *integrator,
                          bool                in_parts = false);
 
-    /// One more term, which is none of Psi; one that couples nodes needs
+    /// One more term; one that couples nodes needs
     /// PotentialTangent::renew_pattern().
     void
     add_term(std::unique_ptr<PotentialTerm> term);
@@ -72,6 +70,11 @@ namespace Exemplar
     /// A step of length h [s] (of dynamics; not used otherwise) begins at `start`.
     void
     begin_step(const State &start, double step_size);
+
+    /// An iteration begins at this state, of which the evaluation must be: terms may change, PotentialTerm::renew().
+    /// Where they do, pattern and evaluation follow. All processes must call this.
+    TermChange
+    renew(const State &at, Evaluation &evaluation);
 
     /// The step that has begun is accepted, with this end, of which the rotations are. It gets what
     /// the laws remember, and what the step has dissipated.
@@ -138,6 +141,14 @@ namespace Exemplar
     double
     max_step(const Vector &positions, const Vector &displacement) const;
 
+    /// The name of a term that does not allow all of it; empty if all do.
+    std::string
+    name_of_limit(const Vector &positions, const Vector &displacement) const;
+
+    /// Whether a term makes heat, which State::dissipated counts.
+    bool
+    has_dissipating_terms(const State &at) const;
+
     const ExampleWeights &
     get_weights() const
     {
@@ -150,7 +161,7 @@ namespace Exemplar
       return free_dofs;
     }
 
-    /// Of State::history.
+    /// The order of the cells in State::history.
     const CellOrder &
     cell_order() const
     {
@@ -175,13 +186,6 @@ namespace Exemplar
       return terms;
     }
 
-    /// Those of Psi, too, and first.
-    const std::vector<PotentialTerm *> &
-    get_all_terms() const
-    {
-      return all_terms;
-    }
-
     HeldBackForces &
     get_held_back()
     {
@@ -201,6 +205,10 @@ namespace Exemplar
     }
 
   private:
+    /// Let terms and pattern follow to where an iteration begins.
+    TermChange
+    renew_terms(const State &at);
+
     PotentialTerms   terms;
     PotentialTangent tangent; ///< of cells and terms
     ElasticPotential cells;
@@ -208,10 +216,8 @@ namespace Exemplar
     TimeIntegrator  *integrator;
     const FESpace   &fe_space;
     const FreeDofs  &free_dofs;
-    /// Those of Psi first.
-    std::vector<PotentialTerm *> all_terms;
-    HeldBackForces               held_back;
-    bool                         in_dynamic_step = false;
+    HeldBackForces   held_back;
+    bool             in_dynamic_step = false;
   };
 } // namespace Exemplar
 

@@ -24,7 +24,7 @@ namespace Exemplar
     }
 
     void
-    begin_step(const State &start) override;
+    begin_step(const State &start, double step_size) override;
 
     void
     leave_step() override
@@ -56,6 +56,12 @@ namespace Exemplar
     {
       if (is_reported)
         columns.emplace_back("energy_inertia", energy);
+    }
+
+    NoGradients
+    no_gradients() const override
+    {
+      return {};
     }
 
     std::size_t

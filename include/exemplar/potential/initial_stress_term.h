@@ -50,6 +50,13 @@ namespace Exemplar
       columns.emplace_back("energy_balance", energy);
     }
 
+    NoGradients
+    no_gradients() const override
+    {
+      return { "of balanced bodies, whose initial stresses depend on all that they are made of",
+               "Set Loads/Balanced = false." };
+    }
+
     std::size_t
     memory_consumption() const override;
 

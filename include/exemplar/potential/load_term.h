@@ -30,6 +30,12 @@ namespace Exemplar
     void
     add(const TermPoint &at, ElasticSums &sums) override;
 
+    NoGradients
+    no_gradients() const override
+    {
+      return {};
+    }
+
     std::size_t
     memory_consumption() const override;
 

@@ -19,7 +19,7 @@ namespace Exemplar
   class NodalSums
   {
   public:
-    /// Of cells with so many nodes each.
+    /// Places for the sums of cells with `nodes_per_cell` nodes each.
     NodalSums(const CellArrays &cells,
               std::size_t       nodes_per_cell,
               std::size_t       n_nodes,
@@ -44,7 +44,7 @@ namespace Exemplar
       return n_at_once;
     }
 
-    /// Of CellTask.
+    /// CellTask::places.
     const int *
     get_places() const
     {

@@ -32,7 +32,7 @@ namespace Exemplar
   /// that of a material without lambda, and the patch adds to their stress the pressure lambda_p
   /// (theta_p - eta theta_p(E(w))) I. A neo-Hookean background has its share in the mean of J, see PatchVolumes,
   /// and theta_p^2 the factor eta alone, Eq. (37).
-  class PatchDilatation : public PotentialTerm
+  class PatchDilatation
   {
   public:
     /// `material` is that of the body, with lambda. All must outlive it.
@@ -41,77 +41,70 @@ namespace Exemplar
                     const FESpace      &fe_space,
                     const Material     &material);
 
-    std::string
-    name() const override
-    {
-      return "patches";
-    }
-
-    NodePairs
-    couplings() const override
-    {
-      return PatchScatter::couplings(patches, fe_space);
-    }
-
-    /// Where patches couple more nodes than cells do.
-    bool
-    couples_by_products() const override
+    /// Whether patches couple more nodes than cells do, so that a pattern may be without their couplings and get their
+    /// tangent as outer products.
+    static bool
+    couples_by_products(const FESpace &fe_space)
     {
       return traits_of(fe_space.element()).locks;
     }
 
+    /// The pattern on which add_tangent() writes, the free degrees of freedom and the cells; all must outlive the
+    /// patches. To be called again when the pattern or what is held has changed.
     void
-    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &cells) override;
+    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &cells);
 
-    /// A patch with a point that is left out of the damping has none.
+    /// A step begins, with the cells' damping as CellField has it. A patch with a point that is left out of the
+    /// damping has none.
     void
-    begin_step(const State &start) override;
+    begin_step();
 
+    /// From now on states are evaluated without a step that leads to them.
     void
-    leave_step() override
+    leave_step()
     {
       damping = {};
     }
 
+    /// Find the means of the dilatations that the cells have found at these positions, CellField::get_dilatation().
+    /// Called before all that follows.
     void
-    add(const TermPoint &at, ElasticSums &sums) override;
+    read_dilatations(const Vector &positions);
 
+    /// Before the cells are evaluated or make their tangent at this point: write the pressures that act in them to
+    /// CellField::get_dilatation(). Called before the four functions that follow, at the same point.
     void
-    add_weight_linear_term(const Vector &positions, std::vector<double> &c) override;
+    write_pressures(const TermPoint &at);
 
+    /// Add the energies of patches and their derivatives by the weights. Forces are those of the pressures.
     void
-    hear_cells(const Vector &positions) override;
+    add(const TermPoint &at, ElasticSums &sums);
 
-    void
-    tell_cells(const TermPoint &at) override;
-
-    /// lambda_p V_p b b^T for b = dtheta_p/dx, times 1 + s, and what the guard adds. In a convex
-    /// tangent no patch is left out of the damping.
+    /// lambda_p V_p b b^T for b = dtheta_p/dx, times 1 + s, and what the guard adds: to `products`, by node, if the
+    /// pattern is without these couplings, else to the values. In a convex tangent no patch is left out of the damping.
+    /// The columns, if there are any, are those of PotentialTerm::add_tangent().
     void
     add_tangent(const TermPoint     &at,
                 Tangent              kind,
                 std::vector<double> &values,
-                std::vector<double> &columns) override;
+                std::vector<double> &columns,
+                OuterProducts       *products);
 
+    /// As PotentialTerm::add_response().
     void
-    add_tangent_in_parts(const TermPoint     &at,
-                         Tangent              kind,
-                         std::vector<double> &values,
-                         std::vector<double> &columns,
-                         OuterProducts       &products) override;
+    add_response(const TermPoint &at, Tangent kind, const Vector &displacement, ElasticSums &sums);
 
+    /// Add lambda_p theta_p^2 / 2, or that of J_p - 1, and what the guard adds [J/m^3].
     void
-    add_response(const TermPoint &at,
-                 Tangent          kind,
-                 const Vector    &displacement,
-                 ElasticSums     &sums) override;
+    add_densities(std::vector<double> &of_points) const;
 
-    /// lambda_p theta_p^2 / 2, or that of J_p - 1, and what the guard adds.
+    /// Add the patches' part of c_i with dPsi/dw = H w - c [J]; H is the weights' quadratic form.
     void
-    add_densities(std::vector<double> &of_points) const override;
+    add_weight_linear_term(std::vector<double> &c) const;
 
+    /// In bytes.
     std::size_t
-    memory_consumption() const override;
+    memory_consumption() const;
 
   private:
     /// b = dtheta_p/dx of Eq. (25) [1/m].
@@ -124,14 +117,14 @@ namespace Exemplar
     void
     add_columns(const PatchVectors &b, std::vector<double> &columns) const;
 
-    /// Of a patch beside held nodes.
+    /// Add what the tangent of one patch, beside held nodes, changes by `displacement`.
     void
     add_response_of(unsigned int         patch,
                     const PatchProducts &products,
                     const Vector        &displacement,
                     ElasticSums         &sums) const;
 
-    /// Of theta_p^2 in the energy: 1, or eta beside a background that knows J.
+    /// The factor of theta_p^2 in the energy: 1, or eta beside a background that knows J.
     double
     share() const
     {

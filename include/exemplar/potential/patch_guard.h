@@ -83,7 +83,7 @@ namespace Exemplar
 
     /// The cells' part of the stretch field.
     void
-    tell_cells(DilatationField &dilatation, double share) const;
+    write_pressures(DilatationField &dilatation, double share) const;
 
     /// sum V Xi, of the energies Gamma.
     void

@@ -49,11 +49,12 @@ namespace Exemplar
     void
     find_gradients(CellField &cells, PatchVectors &b) const;
 
-    /// The same by other matrices than rotations, nine numbers a point in batches.
+    /// Sum V/V_p M grad N_a over the points of each patch, as dtheta_p/dx has R for the matrices M, nine numbers a
+    /// point in batches.
     void
     find_gradients(CellField &cells, double *matrices, PatchVectors &b) const;
 
-    /// Of all patches together.
+    /// Nodes of all patches, each counted once a patch.
     std::size_t
     n_nodes() const
     {
@@ -64,7 +65,7 @@ namespace Exemplar
     double
     mean(unsigned int patch, const double *numbers) const;
 
-    /// Of the vector of a patch with a field by degree of freedom.
+    /// Scalar product of a patch's vector with a field by degree of freedom.
     double
     product(unsigned int patch, const PatchVectors &vectors, const Vector &field) const;
 
@@ -107,7 +108,7 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
-    /// Of PatchArrays.
+    /// The arrays behind PatchArrays.
     struct Points
     {
       std::vector<std::size_t>  starts;
@@ -116,7 +117,7 @@ namespace Exemplar
       std::vector<int>          places;
     };
 
-    /// Of PatchColumns, for the nodes that are not wholly held.
+    /// The arrays behind PatchColumns, for nodes with a free component.
     struct Columns
     {
       std::vector<std::size_t> starts;
@@ -124,7 +125,7 @@ namespace Exemplar
       std::vector<int>         columns, offsets;
     };
 
-    /// Of a node of a patch among those of all patches.
+    /// The place of a patch's node among the nodes of all patches.
     std::size_t
     place(unsigned int patch, unsigned int node) const;
 

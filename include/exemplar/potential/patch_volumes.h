@@ -39,7 +39,7 @@ namespace Exemplar
 
     /// Let the pressures act in the cells, which have the share of the background in their energy.
     void
-    tell_cells(CellField &cells) const;
+    write_pressures(CellField &cells) const;
 
     /// `share` lambda_p V_p b b^T with b = dJ_p/dx [N/m]. A convex tangent lacks that of lambda_p < 0, which
     /// the cells do not outweigh where they are long.

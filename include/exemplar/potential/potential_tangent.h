@@ -14,19 +14,25 @@ namespace Exemplar
   class PotentialTangent
   {
   public:
-    /// Of these cells, which are made after it with `elastic_terms`, and terms; all must outlive it. If `in_parts`, the
+    /// The tangent of cells, which are made after it of the same parts, and of terms; all must outlive it. If `in_parts`, the
     /// pattern is without the couplings of outer products.
     PotentialTangent(const ElasticParts   &parts,
-                     const PotentialTerms &elastic_terms,
                      ElasticPotential     &cells,
                      const PotentialTerms &terms,
                      bool                  in_parts);
 
-    /// Of A.
+    /// The pattern of A.
     const SymmetricPattern &
     get_pattern() const
     {
       return pattern;
+    }
+
+    /// What terms couple in the pattern beside nodes of one cell or patch.
+    const NodePairs &
+    couplings_of_terms() const
+    {
+      return couplings;
     }
 
     /// From now on the pattern is one with the couplings of outer products, or without them.
@@ -38,7 +44,12 @@ namespace Exemplar
     void
     renew_pattern();
 
-    /// A term that is no part of Psi gets to know the pattern.
+    /// Do so if terms couple other nodes than the pattern knows, as after PotentialTerm::load(). All processes must
+    /// call this.
+    void
+    follow_couplings();
+
+    /// A term gets to know the pattern.
     void
     attach(PotentialTerm &term);
 
@@ -53,6 +64,10 @@ namespace Exemplar
              OuterProducts             *products = nullptr);
 
   private:
+    /// Make the pattern of cells, patches and terms as they are.
+    void
+    make_pattern_of_couplings(bool in_parts);
+
     /// Exact or convex.
     void
     assemble_one(Tangent                    kind,
@@ -62,11 +77,14 @@ namespace Exemplar
                  std::vector<double>       &columns,
                  OuterProducts             *products);
 
-    const FESpace        &fe_space;
-    const FreeDofs       &free_dofs;
+    const ElasticParts    parts;
     ElasticPotential     &cells;
     const PotentialTerms &terms;
+    NodePairs             couplings; ///< of the terms
     SymmetricPattern      pattern;
+    std::shared_ptr<const SymmetricPattern>
+                 plain;        ///< the pattern without these couplings, if there are any
+    unsigned int plain_of = 0; ///< FreeDofs::version() of that
   };
 } // namespace Exemplar
 

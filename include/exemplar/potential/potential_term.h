@@ -14,6 +14,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,15 +31,36 @@ namespace Exemplar
   /// Pairs of nodes whose degrees of freedom a matrix couples.
   using NodePairs = std::vector<std::pair<unsigned int, unsigned int>>;
 
-  /// A summand of the incremental potential beside the energies of the cells: the dilatation of
-  /// patches, inertia, loads. A term that a scene does not have is not there. Positions, forces and
-  /// displacements are by degree of freedom.
+  /// What has changed in a term.
+  enum class TermChange
+  {
+    none,
+    values,   ///< its energy is another one, on the same couplings
+    couplings ///< it couples other nodes, too
+  };
+
+  /// What frames show of a term: three numbers a node, by degree of freedom.
+  struct NodalField
+  {
+    std::string name; ///< in the files
+    Vector      values;
+  };
+
+  /// Why a term has no gradients, as in "There are no gradients {what} yet. {remedy}". Empty: it has.
+  struct NoGradients
+  {
+    std::string what, remedy;
+  };
+
+  /// A summand of the incremental potential beside Psi, Eq. (5): inertia, loads, springs. A term that a
+  /// scene does not have is not there. Positions, forces and displacements are by degree of freedom.
+  ///
+  /// Its life: attach(); then for each step begin_step(), renew() at the step's start and where each iteration begins,
+  /// energies and tangents between, and end_step() if the step is accepted. Steps that are given up have no end: what
+  /// lasts is changed in end_step() alone, and renew() may be called anywhere again.
   ///
   /// Where several processes share a body, a term sums what belongs to the cells and the nodes of its
   /// own process (FreeDofs::exchange() says which), and never over processes: whoever calls it does.
-  ///
-  /// Terms whose energy is part of Psi, Eq. (5), among them all that depend on the weights, are those
-  /// of the ElasticPotential; all others are those of the IncrementalPotential.
   class PotentialTerm
   {
   public:
@@ -53,22 +75,6 @@ namespace Exemplar
     couplings() const
     {
       return {};
-    }
-
-    /// Whether all these couplings are those of outer products, which add_tangent_in_parts() can keep
-    /// apart. Then a pattern may be without them.
-    virtual bool
-    couples_by_products() const
-    {
-      return false;
-    }
-
-    /// Whether begin_step() has changed the couplings, as contact does. The pattern then follows
-    /// before the step goes on.
-    virtual bool
-    has_new_couplings() const
-    {
-      return false;
     }
 
     /// Known from now on: the pattern on which add_tangent() writes, the free degrees of freedom, and
@@ -87,11 +93,27 @@ namespace Exemplar
     {
     }
 
-    /// A step begins at `start`, with the cells' damping as CellField has it; the term belongs to it
-    /// until end_step() or leave_step().
+    /// A step of length h [s], which is not used outside of dynamics, begins at `start`, with the cells' damping as
+    /// CellField has it; the term belongs to it until end_step() or leave_step().
     virtual void
-    begin_step(const State & /*start*/)
+    begin_step(const State & /*start*/, double /*step_size*/)
     {
+    }
+
+    /// An iteration begins here: the term may couple other nodes, as contact does, or renew what it has lagged, as
+    /// friction does. Pattern and evaluation then follow before the step goes on, and no step ends with a change. It
+    /// must find the same at the same point and step, whatever was evaluated before.
+    virtual TermChange
+    renew(const TermPoint & /*at*/)
+    {
+      return TermChange::none;
+    }
+
+    /// What the step with this end has made heat of [J], before end_step(). Empty: the term never makes any.
+    virtual std::optional<double>
+    dissipation(const State & /*end*/) const
+    {
+      return {};
     }
 
     /// The step has been accepted, with this end.
@@ -119,33 +141,10 @@ namespace Exemplar
       return false;
     }
 
-    /// Add energies, the derivatives by the positions and, unless they are empty, by the weights, and
-    /// the size of the forces at each node, beside what cells do that have been told. The cells have been
-    /// evaluated at this point.
+    /// Add the energy, its derivative by the positions, and the size of the forces at each node.
     virtual void
     add(const TermPoint &at, ElasticSums &sums)
         = 0;
-
-    /// Add its part of c_i with dPsi/dw = H w - c [J]; H is the weights' quadratic form.
-    virtual void
-    add_weight_linear_term(const Vector & /*positions*/, std::vector<double> & /*c*/)
-    {
-    }
-
-    /// The cells have found their dilatations at these positions, CellField::get_dilatation(). Called
-    /// before the functions that follow and those above that take positions.
-    virtual void
-    hear_cells(const Vector & /*positions*/)
-    {
-    }
-
-    /// Before the cells are evaluated or make their tangent at this point: write the pressures that act
-    /// in them, if any, to CellField::get_dilatation(). The three functions below are called after this one, at
-    /// the same point.
-    virtual void
-    tell_cells(const TermPoint & /*at*/)
-    {
-    }
 
     /// Add its tangent [N/m] of this kind to the values on the pattern and, if there are columns, its
     /// part of the coupling G, Eqs. (9) and (40): one a strained weight on FreeDofs::local_list(). A convex
@@ -158,17 +157,6 @@ namespace Exemplar
     {
     }
 
-    /// The same on a pattern without its couplings, with these outer products added to `products`, by
-    /// node, for terms that couple by them.
-    virtual void
-    add_tangent_in_parts(const TermPoint & /*at*/,
-                         Tangent /*kind*/,
-                         std::vector<double> & /*values*/,
-                         std::vector<double> & /*columns*/,
-                         OuterProducts & /*products*/)
-    {
-    }
-
     /// Add what `displacement` [m], zero but on held degrees of freedom, changes by that tangent.
     virtual void
     add_response(const TermPoint & /*at*/,
@@ -178,14 +166,8 @@ namespace Exemplar
     {
     }
 
-    /// Add the elastic energy density that it gives to each quadrature point [J/m^3].
-    virtual void
-    add_densities(std::vector<double> & /*of_points*/) const
-    {
-    }
-
-    /// The part of `displacement` that a step from here may go, at most: beyond it the energy is
-    /// not defined, as where an obstacle is passed.
+    /// The part of `displacement`, of free and held nodes, that a step from these positions may go, at most: beyond it
+    /// the energy is not defined, as where an obstacle is passed.
     virtual double
     max_step(const Vector & /*positions*/, const Vector & /*displacement*/) const
     {
@@ -200,11 +182,26 @@ namespace Exemplar
     }
 
     /// Append what statistics.csv shall show of the term, names and values, where its energy is
-    /// `energy` [J].
+    /// `energy` [J]: that energy, or the work of what moves the term from outside.
     virtual void
     append_columns(double /*energy*/,
                    std::vector<std::pair<std::string, double>> & /*columns*/) const
     {
+    }
+
+    /// Append what frames shall show of the term at these positions.
+    virtual void
+    append_fields(const Vector & /*positions*/, std::vector<NodalField> & /*fields*/) const
+    {
+    }
+
+    /// Gradients by all that a term is not made of need nothing but its exact tangent; a term that has one, and whose
+    /// steps are alike when they are begun again, says so by returning nothing.
+    virtual NoGradients
+    no_gradients() const
+    {
+      return { "of terms that were added to the potential, such as '" + name() + "'",
+               "Make the problem without add_term()." };
     }
 
     /// What it remembers from step to step beside the state, for checkpoints. load() reads what save()
@@ -226,21 +223,6 @@ namespace Exemplar
   };
 
   using PotentialTerms = std::vector<std::unique_ptr<PotentialTerm>>;
-
-  /// Add its tangent, in parts if it has some and there are `products` to add to.
-  inline void
-  add_tangent_of(PotentialTerm       &term,
-                 const TermPoint     &at,
-                 const Tangent        kind,
-                 std::vector<double> &values,
-                 std::vector<double> &columns,
-                 OuterProducts       *products)
-  {
-    if (products == nullptr || !term.couples_by_products())
-      term.add_tangent(at, kind, values, columns);
-    else
-      term.add_tangent_in_parts(at, kind, values, columns, *products);
-  }
 } // namespace Exemplar
 
 #endif

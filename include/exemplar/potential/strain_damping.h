@@ -47,12 +47,12 @@ namespace Exemplar
       return load_stored(strains.data(), point, 1, 0);
     }
 
-    /// For the loops; without damping there is nothing in them.
+    /// Factors and past strains for the loops; null without damping.
     DampingArrays
     arrays() const;
 
-    /// The same with no cell left out. What is convex anyway need not leave any out, and a resumed
-    /// run does not know which these were when a factor was made. Lives until the next call.
+    /// arrays() with no cell left out of the damping, as convex tangents have it: they stay convex, and a resumed run
+    /// does not know which cells were left out when a factor was made. Lives until the next call.
     DampingArrays
     arrays_of_all_cells();
 

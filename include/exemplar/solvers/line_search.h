@@ -6,7 +6,7 @@
 
 namespace Exemplar
 {
-  /// By what a step is judged: the potential with the best weights, and its gradient.
+  /// Merit of a state in a line search: the potential with the best weights, and its gradient.
   struct Merit
   {
     double potential         = 0.; ///< [J]
@@ -30,8 +30,8 @@ namespace Exemplar
   bool
   is_below_rounding(const Merit &before, double change_expected);
 
-  /// The same where the change is too small to be seen: by the slopes at both ends of a step of that
-  /// length, of which half the sum is the mean slope of a quadratic function (the approximate Wolfe
+  /// Whether a step has led downhill where the change of the potential is lost in rounding: by the slopes at both
+  /// ends of a step of that length, of which half the sum is the mean slope of a quadratic function (the approximate Wolfe
   /// condition of Hager and Zhang, SIAM J. Optim. 16, 2005). Off a saddle point the potential falls
   /// and the gradient grows, which is_better() would refuse.
   bool
@@ -39,7 +39,8 @@ namespace Exemplar
       const Merit &now, const Merit &before, double slope_before, double slope_now, double length);
 
   /// Draw the free degrees of freedom of `to` [m] back towards `from`, to as much of the way as
-  /// IncrementalPotential::max_step() allows. Held ones stay where their handles have put them.
+  /// IncrementalPotential::max_step() allows. Held ones stay where their handles have put them. Throws SolverFailure
+  /// where a term does not let these go there.
   void
   keep_within_max_step(const IncrementalPotential &potential, const Vector &from, Vector &to);
 } // namespace Exemplar

@@ -27,7 +27,7 @@ namespace Exemplar
     SolveReport
     solve(State &state, Evaluation &evaluation, double time, double step_size) override;
 
-    /// The same in a step that another method has begun, whose report goes on.
+    /// Solve a step that another method has begun; its report goes on.
     void
     take_over(State &state, Evaluation &evaluation, double time, SolveReport &report);
 
@@ -53,8 +53,7 @@ namespace Exemplar
     memory_consumption() const override;
 
   private:
-    /// Where the last exact tangent was made. It is next to that of the state that it led to, so
-    /// the next prediction uses its factor.
+    /// Where the last exact tangent was made. The next step starts near here, so its prediction reuses this factor.
     struct Linearization
     {
       static constexpr unsigned int not_made = std::numeric_limits<unsigned int>::max();

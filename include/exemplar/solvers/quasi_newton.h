@@ -52,6 +52,7 @@ namespace Exemplar
     {
       Vector              positions; ///< [m]; empty: none was made
       std::vector<double> weights;   ///< then, which some convex tangents know
+      NodePairs           couplings; ///< of terms, then
       State               start; ///< of the step, if the energy changes between steps; else empty
       double              step_size       = 0.; ///< [s]
       double              mass_factor     = 0.; ///< IncrementalPotential::mass_factor() then
@@ -63,7 +64,7 @@ namespace Exemplar
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
-        archive &positions &weights &start &step_size &mass_factor &steps &iterations
+        archive &positions &weights &couplings &start &step_size &mass_factor &steps &iterations
             &last_iterations;
       }
     };
@@ -89,6 +90,10 @@ namespace Exemplar
 
     MetricHistory
     new_history(const State &start, double step_size, const State &trial) const;
+
+    /// Whether terms couple other nodes than they did where the metric was made.
+    bool
+    has_other_couplings() const;
 
     /// Whether so many steps have gone by as take as long as a metric, by counts.
     bool

@@ -18,7 +18,7 @@ namespace Exemplar
     quasi_newton
   };
 
-  /// Of which positions the rotations of a step's first pass are.
+  /// The positions whose rotations a step's first pass takes: those of the last step, or predicted ones.
   enum class PassRotations
   {
     last,

@@ -53,7 +53,7 @@ namespace Exemplar
     virtual const dealii::FullMatrix<double> &
     schur_complement() const = 0;
 
-    /// Of what it keeps from step to step, in bytes.
+    /// Memory that it keeps from step to step, in bytes.
     virtual std::size_t
     memory_consumption() const
     {

@@ -34,8 +34,8 @@ namespace Exemplar
     void
     factorize(const Vector &positions, const std::vector<double> &weights, double convexity);
 
-    /// The same with few digits: for BorderedSystem::keep(), the columns of weights, and who measures what a
-    /// solution leaves.
+    /// factorize() in few digits: for BorderedSystem::keep(), the columns of weights, and callers that measure the
+    /// residual of a solution.
     void
     factorize_roughly(const Vector              &positions,
                       const std::vector<double> &weights,
@@ -59,8 +59,7 @@ namespace Exemplar
       return solve(at, evaluation.gradient, evaluation.elastic.weight_gradient);
     }
 
-    /// The same for any derivatives: by degree of freedom [N] and, with weights to find, by weight
-    /// [J].
+    /// Solve for any derivatives: by degree of freedom [N] and, with weights to find, by weight [J].
     BorderedVector
     solve(const State &at, const Vector &gradient, const std::vector<double> &weight_gradient);
 
@@ -94,7 +93,7 @@ namespace Exemplar
       return factorizations;
     }
 
-    /// The same without those that were remade after a resume.
+    /// Factorisations so far without those that were remade after a resume.
     unsigned int
     n_new_factorizations() const
     {
@@ -129,11 +128,11 @@ namespace Exemplar
     void
     follow_pattern();
 
-    /// For the factor that comes next.
+    /// Assemble in the system whose factor comes next.
     void
     assemble(const Vector &positions, const std::vector<double> &weights, double convexity);
 
-    /// The same for a system of that pattern.
+    /// Assemble in `assembled`, a system of the present pattern.
     void
     assemble(const Vector              &positions,
              const std::vector<double> &weights,
@@ -146,7 +145,7 @@ namespace Exemplar
     IncrementalPotential           &potential;
     const MakeSystem                make_system;
     std::unique_ptr<BorderedSystem> system;
-    unsigned int                    pattern_version; ///< of the system
+    unsigned int                    pattern_version, dofs_version; ///< of the system
     StepClock                      &clock;
     const bool                      turns_freely;
     BackgroundFactor                background;

@@ -37,7 +37,7 @@ namespace Exemplar
               fmt::format("of cells that are {}, as what they have become depends on the whole way "
                           "to the equilibrium",
                           traits_of(law).name),
-              "Set Material/Yield stress to 0.");
+              fmt::format("Set Material/{} to 0.", traits_of(law).chosen_by[0]));
         else if (!law_has_potential(law))
           refuse(
               fmt::format("of cells that are {}, as their forces are the derivative of no energy",
@@ -68,11 +68,9 @@ namespace Exemplar
   {
     if (problem.body.exchange().n_processes() > 1)
       refuse("for several processes", "Use one.");
-    if (!problem.actions.own_terms.empty())
-      refuse("of terms that were added to the potential", "Make the problem without add_term().");
-    if (!problem.actions.initial_stresses.empty())
-      refuse("of balanced bodies, whose initial stresses depend on all that they are made of",
-             "Set Loads/Balanced = false.");
+    for (const auto &term : problem.potential.get_terms())
+      if (const NoGradients none = term->no_gradients(); !none.what.empty())
+        refuse(none.what, none.remedy);
     require_known_model(problem);
     require_known_examples(problem);
   }

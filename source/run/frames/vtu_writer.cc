@@ -111,6 +111,8 @@ namespace Exemplar
         write_vector(out, "displacement", frame.displacement);
         if (frame.velocities.size() > 0)
           write_vector(out, "velocity", frame.velocities);
+        for (const NodalField &field : frame.fields)
+          write_vector(out, field.name, field.values);
         out << "</PointData>\n<CellData>\n";
         write_scalars(out, "strain_energy_density", frame.cells.strain_energy_density);
         write_scalars(out, "det_F", frame.cells.det_F);
@@ -156,6 +158,8 @@ namespace Exemplar
     declare("Float64", "displacement", 3);
     if (frame.velocities.size() > 0)
       declare("Float64", "velocity", 3);
+    for (const NodalField &field : frame.fields)
+      declare("Float64", field.name, 3);
     out << "</PPointData>\n<PCellData>\n";
     for (const std::string name : { "strain_energy_density", "det_F", "von_mises_stress" })
       declare("Float64", name, 1);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/missing_file.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/mesh/map_name.h>
+#include <exemplar/mesh/mesh_arrays.h>
 #include <exemplar/run/inputs/inputs.h>
 #include <exemplar/run/scene/scene_parameters.h>
 
@@ -79,11 +81,28 @@ namespace Exemplar
             under_key(key, [&] { act(file); });
         };
         for (const HandleParameters &handle : scene.handles)
+        {
           act_on_missing(handle.follow_pose, "Handles/" + handle.name + "/Follow pose");
+          require_same_unit(handle.follow_pose, "Handles/" + handle.name + "/Follow pose");
+        }
         if (scene.examples.in_use())
           for (const std::string &pose : scene.examples.poses)
             act_on_missing(pose, "Examples/Poses");
         act_on_missing(scene.initial.pose, "Initial/Pose");
+      }
+
+      /// Throws UserError for a pose that is read and so large that its unit of length is another one.
+      void
+      require_same_unit(const std::string &file, const std::string &key) const
+      {
+        constexpr double greatest = 100.;
+        const auto       pose     = inputs.poses.find(file);
+        if (pose == inputs.poses.end() || inputs.mesh.nodes.empty())
+          return; // handed in
+        if (const double ratio = box_diagonal(pose->second) / box_diagonal(inputs.mesh.nodes);
+            ratio > greatest)
+          throw UserError(key + ": " + file + " is " + short_text(ratio)
+                          + " times as large as the body. Write both in the same unit of length.");
       }
 
       void

@@ -147,7 +147,8 @@ namespace Exemplar
   {
     const CellField &cells      = problem.potential.get_cells().get_field();
     const bool       some_yield = cells.get_batches().has_trait(&ModelTraits::dissipated);
-    if (problem.potential.get_weights().get_memory().in_use() || some_yield)
+    if (problem.potential.get_weights().get_memory().in_use() || some_yield
+        || problem.potential.has_dissipating_terms(shown))
       append(row, "energy_dissipated",
              shown.dissipated
                  + (some_yield ? problem.body.exchange().sum(cells.dissipated_energy()) : 0.));

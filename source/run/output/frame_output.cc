@@ -34,6 +34,25 @@ namespace Exemplar
     }
   } // namespace
 
+  Frame
+  frame_of(Problem &problem)
+  {
+    const State &state = problem.state;
+    Frame        frame;
+    frame.step         = state.step;
+    frame.time         = state.time;
+    frame.positions    = state.positions;
+    frame.displacement = state.positions;
+    frame.displacement -= problem.body.fe_space.rest_positions();
+    frame.velocities = state.velocities;
+    frame.cells      = problem.potential.get_cells().cell_results(state.positions, state.weights);
+    for (const auto &term : problem.potential.get_terms())
+      term->append_fields(state.positions, frame.fields);
+    for (NodalField &field : frame.fields)
+      problem.body.exchange().assemble(field.values.begin(), 3);
+    return frame;
+  }
+
   FrameOutput::FrameOutput(Problem                        &problem,
                            const RunDirectory             &directory,
                            const std::vector<FrameFormat> &formats)
@@ -151,13 +170,7 @@ namespace Exemplar
   void
   FrameOutput::write(std::optional<SpaceError> space_error)
   {
-    const State &state = problem.state;
-    Frame        frame = {
-             state.step,       state.time,
-             state.positions,  state.positions,
-             state.velocities, problem.potential.get_cells().cell_results(state.positions, state.weights)
-    };
-    frame.displacement -= problem.body.fe_space.rest_positions();
+    Frame frame              = frame_of(problem);
     frame.space_error        = std::move(space_error);
     const Exchange &exchange = problem.body.exchange();
     do_in_agreement(exchange,

@@ -105,9 +105,9 @@ namespace Exemplar
         integrator(copy_of(problem.actions.integrator)),
         free_dofs(problem.body.fe_space.n_dofs(), {}, problem.body.exchange()),
         potential({ laws_of_cells(problem.parameters, problem.body), problem.body.fe_space,
-                    problem.body.material, problem.body.cell_material, problem.examples.poses,
-                    weights, free_dofs, problem.parameters.solver.n_threads },
-                  make_elastic_terms(problem.body, problem.examples),
+                    problem.body.material, problem.body.cell_material, problem.body.patches,
+                    problem.examples.poses, weights, free_dofs,
+                    problem.parameters.solver.n_threads },
                   make_all_terms(problem, integrator.get(), own_terms),
                   integrator.get())
   {
@@ -141,6 +141,7 @@ namespace Exemplar
     const auto &originals = problem.actions.own_terms;
     for (std::size_t i = 0; i < own_terms.size(); ++i)
       copy_memory(*originals[i].term, *own_terms[i]);
+    potential.get_tangent().follow_couplings();
     potential.begin_step(problem.state, step.size);
     State at   = {};
     at.weights = problem.state.weights;
@@ -155,6 +156,7 @@ namespace Exemplar
     state.positions = at.positions;
     state.weights   = at.weights;
     potential.evaluate(state, RotationUse::update, evaluation);
+    potential.renew(state, evaluation);
     return evaluation;
   }
 

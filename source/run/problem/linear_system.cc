@@ -27,10 +27,8 @@ namespace Exemplar
     n_values_in_parts(const IncrementalPotential &potential)
     {
       const SymmetricPattern &pattern = potential.get_tangent().get_pattern();
-      for (const auto &term : potential.get_cells().get_terms())
-        if (term->couples_by_products())
-          return 21. * pattern.n();
-      return static_cast<double>(pattern.n_values());
+      return potential.get_cells().couples_by_products() ? 21. * pattern.n()
+                                                         : static_cast<double>(pattern.n_values());
     }
 
     /// Residual of a linear solve over its right side. Newton's method and the fixed point
@@ -62,7 +60,10 @@ namespace Exemplar
                         : make_cholesky_operator(solver.n_threads);
       try
       {
-        matrix->reinit(potential.get_tangent().get_pattern());
+        const SymmetricPattern &pattern = potential.get_tangent().get_pattern();
+        matrix->reinit(pattern.plain == nullptr
+                           ? pattern
+                           : *pattern.plain); // couplings that come and go choose nothing
       }
       catch (const SolverFailure &)
       {
@@ -74,6 +75,8 @@ namespace Exemplar
           && matrix->traits().n_operations > operations_at_crossover(solver.method, n_examples)
                                                  * n_values_in_parts(potential))
         return nullptr;
+      if (potential.get_tangent().get_pattern().plain != nullptr)
+        matrix->reinit(potential.get_tangent().get_pattern());
       return matrix;
     }
   } // namespace

@@ -59,9 +59,8 @@ namespace Exemplar
         body(parameters, given), constraints(parameters, body, time_axis, given),
         examples(parameters, body, time_axis, given), actions(parameters, body, given),
         potential({ laws_of_cells(parameters, body), body.fe_space, body.material,
-                    body.cell_material, examples.poses, examples.weights, constraints.free_dofs,
-                    parameters.solver.n_threads },
-                  make_elastic_terms(body, examples),
+                    body.cell_material, body.patches, examples.poses, examples.weights,
+                    constraints.free_dofs, parameters.solver.n_threads },
                   actions.make_terms(body, actions.integrator.get()),
                   actions.integrator.get(),
                   is_assembled_in_parts(parameters.solver, body.exchange())),
@@ -188,8 +187,9 @@ namespace Exemplar
       std::istringstream              bytes(solver_memory);
       boost::archive::binary_iarchive archive(bytes);
       solver->load(archive);
-      for (PotentialTerm *term : potential.get_all_terms())
+      for (const auto &term : potential.get_terms())
         term->load(archive);
+      potential.get_tangent().follow_couplings();
       if (bytes.peek() != std::char_traits<char>::eof())
         throw boost::archive::archive_exception(
             boost::archive::archive_exception::input_stream_error);
@@ -204,7 +204,7 @@ namespace Exemplar
     {
       boost::archive::binary_oarchive archive(bytes);
       solver->save(archive);
-      for (const PotentialTerm *term : potential.get_all_terms())
+      for (const auto &term : potential.get_terms())
         term->save(archive);
     }
     return bytes.str();

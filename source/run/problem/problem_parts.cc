@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/potential/inertia_term.h>
 #include <exemplar/potential/load_term.h>
-#include <exemplar/potential/patch_dilatation.h>
 #include <exemplar/run/problem/problem_parts.h>
 
 #include <algorithm>
@@ -91,7 +90,7 @@ namespace Exemplar
                      const TimeAxis        &axis,
                      const BodyInputs      &inputs)
       : poses(example_parameters(parameters),
-              parameters.model.law(),
+              laws_of_cells(parameters, body),
               body.mesh,
               body.fe_space,
               body.cell_material,
@@ -151,16 +150,6 @@ namespace Exemplar
         laws.add(other);
     }
     return laws;
-  }
-
-  PotentialTerms
-  make_elastic_terms(const Body &body, const Examples &examples)
-  {
-    PotentialTerms terms;
-    if (body.patches.size() > 0)
-      terms.push_back(std::make_unique<PatchDilatation>(body.patches, examples.poses, body.fe_space,
-                                                        body.material));
-    return terms;
   }
 
   PotentialTerms

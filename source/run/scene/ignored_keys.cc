@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/kernels/cell_model.h>
 #include <exemplar/run/scene/ignored_keys.h>
 
 #include <fmt/core.h>
@@ -28,13 +29,35 @@ namespace Exemplar
                             { return is_surface_file(handle.follow_pose); });
     }
 
+    /// The constants of laws that the first of their constants chooses, which is 0 everywhere.
+    std::vector<Ignored>
+    constants_of_absent_laws(const MaterialParameters &material)
+    {
+      std::vector<Ignored> kinds;
+      for (const CellLaw law : all_laws())
+        if (const auto chosen_by = traits_of(law).chosen_by;
+            chosen_by[0] != nullptr && chosen_by[1] == nullptr)
+        {
+          Ignored kind{ !material.has(chosen_by[0]),
+                        {},
+                        fmt::format("without a Material/{}. Set that, or remove it.",
+                                    chosen_by[0]) };
+          for (const LawConstant &constant : own_constants(law))
+            if (constant.name != chosen_by[0])
+              kind.keys.push_back(std::string("Material/") + constant.name);
+          kinds.push_back(std::move(kind));
+        }
+      return kinds;
+    }
+
     std::vector<Ignored>
     kinds_of_ignored(const SceneParameters &scene)
     {
       const bool is_dynamic = scene.scene == SceneKind::dynamic;
       const bool has_examples
           = scene.examples.n_examples() > (scene.examples.include_rest_pose ? 1 : 0);
-      return {
+      std::vector<Ignored>       kinds       = constants_of_absent_laws(scene.material);
+      const std::vector<Ignored> of_sections = {
         { !is_dynamic,
           { "Time/Step", "Time/End", "Time/Scheme", "Time/Mass damping", "Time/Stiffness damping",
             "Initial/Velocity" },
@@ -68,10 +91,6 @@ namespace Exemplar
         { !has_pose_by_surface(scene),
           { "Examples/Attach" },
           "without a pose by a surface (.obj, .ply, .stl) in Examples/Poses. Remove it." },
-        { !scene.material.may_yield(),
-          { "Material/Kinematic hardening", "Material/Isotropic hardening",
-            "Material/Flow viscosity", "Material/Greatest plastic strain" },
-          "without a Material/Yield stress. Set that, or remove it." },
         { !scene.material.law_of_grain(),
           { "Material/Fibre direction", "Material/Fibre direction maps" },
           "without a Material/Fibre stiffness or Material/Orthotropy. Set one of these, or remove "
@@ -86,6 +105,8 @@ namespace Exemplar
           { "Mesh/Cells", "Mesh/Repair" },
           "unless Mesh/File is a surface. Remove it." }
       };
+      kinds.insert(kinds.end(), of_sections.begin(), of_sections.end());
+      return kinds;
     }
   } // namespace
 

@@ -52,7 +52,8 @@ namespace Exemplar
     keys.add(
         "Functional", functional,
         "A number at the end of a static scene for summary.json, and how far it is from that of "
-        "the exact equilibrium, as its derivatives say: energy_elastic [J], reaction_NAME_x of a "
+        "the exact equilibrium on this mesh, as its derivatives say: energy_elastic [J], "
+        "reaction_NAME_x of a "
         "handle [N], or displacement_x of SELECTION, such as displacement_z of boundary 2, the "
         "mean of its nodes [m]; with _y and _z likewise. Empty: none.");
     keys.leave_subsection();

@@ -77,8 +77,7 @@ namespace Exemplar
       throw UserError(
           "Examples/Acts on speaks of fibres, but no material has any. Set Material/Fibre "
           "stiffness and Material/Fibre direction, or Examples/Acts on = all.");
-    check_background();
-    check_plasticity();
+    check_laws();
     check_solver();
     check_surface();
     mesh.check_carried();
@@ -184,7 +183,7 @@ namespace Exemplar
     if (model.is_frozen() || solver.method != Method::newton)
       refuse("which needs a descent on the energy. Set Solver/Method = newton and Model/Gradient = "
              "consistent, or");
-    if (material.may_yield() || examples.yield > 0.)
+    if (material.has("Yield stress") || examples.yield > 0.)
       refuse("but what yields depends on the whole way. Set");
   }
 

@@ -25,18 +25,18 @@ namespace Exemplar::Testing
 
       SpringTerm(const unsigned int a, const unsigned int b, const double k) : a(a), b(b), k(k) {}
 
-      /// From its second step on it ends at another node.
       void
-      begin_step(const State &) override
+      begin_step(const State &, double) override
       {
         is_new = (++n_steps == 2);
-        b -= is_new ? 1 : 0;
       }
 
-      bool
-      has_new_couplings() const override
+      /// From its second step on it ends at another node.
+      TermChange
+      renew(const TermPoint &) override
       {
-        return is_new;
+        b -= is_new ? 1 : 0;
+        return std::exchange(is_new, false) ? TermChange::couplings : TermChange::none;
       }
 
       void
@@ -116,8 +116,7 @@ namespace Exemplar::Testing
             free_dofs(body.fe_space.n_dofs(), { 0, 1, 2, 5, 9 }, exchange),
             examples(body.examples(ExampleParameters())),
             potential({ CellLaw::corotational, body.fe_space, body.material, body.material,
-                        *examples.poses, *examples.weights, free_dofs },
-                      {},
+                        no_patches(), *examples.poses, *examples.weights, free_dofs },
                       springs(body.fe_space.n_nodes() - 1),
                       nullptr)
       {

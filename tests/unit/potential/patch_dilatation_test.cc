@@ -173,9 +173,7 @@ namespace Exemplar::Testing
       const ElasticEvaluation before = elastic.evaluate_at(x);
       elastic.begin_step(s, { { 1., &past } });
       EXPECT_GT(elastic.evaluate_at(x).energy_damping, 0.01 * before.energy);
-      elastic.set_damping(0., {});
-      for (const auto &term : elastic.get_terms())
-        term->leave_step();
+      elastic.leave_step();
       const ElasticEvaluation after = elastic.evaluate_at(x);
       EXPECT_EQ(after.energy_damping, 0.);
       EXPECT_EQ(after.gradient, before.gradient);

@@ -174,6 +174,13 @@ namespace Exemplar::Testing
       expect_contains(refusal([&] { read_inputs(scene); }),
                       "Handles/right/Follow pose: " + (directory / "stretched.msh").string()
                           + " is no pose of " + scene.mesh.file + ": it has 16 nodes");
+      MshFile large = read_msh(scene.mesh.file);
+      for (auto &node : large.nodes)
+        node *= 1000.;
+      write_msh(large, directory / "stretched.msh");
+      expect_contains(refusal([&] { read_inputs(scene); }),
+                      "stretched.msh is 1000 times as large as the body. Write both in the same "
+                      "unit of length.");
     }
 
     TEST_F(InputsTest, ArraysThatDoNotFitAreRefused)

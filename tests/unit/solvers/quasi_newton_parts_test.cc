@@ -129,7 +129,7 @@ namespace Exemplar::Testing
         State state;
         state.positions = state.velocities = positions;
         integrator.begin_step(state, 0.1);
-        inertia.begin_step(state);
+        inertia.begin_step(state, 0.1);
         inertia.attach(elastic.matrix_pattern, free_dofs, elastic.get_field());
         auto matrix = make_cholesky_operator();
         matrix->reinit(elastic.matrix_pattern);

@@ -28,6 +28,7 @@ namespace Exemplar
     /// shows it.
     std::vector<SurfaceMesh::Vertex> surface     = {};
     std::optional<SpaceError>        space_error = {};
+    std::vector<NodalField>          fields      = {}; ///< of the potential's terms
   };
 
   /// A frame that is on disk.

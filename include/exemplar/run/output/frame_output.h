@@ -16,6 +16,10 @@
 
 namespace Exemplar
 {
+  /// The state, as frames show it.
+  Frame
+  frame_of(Problem &problem);
+
   /// The frames of a run, in the formats of Output/Formats. With more than one thread they are
   /// written while the next step is computed; write() and drain() may then throw the error of
   /// an earlier frame.

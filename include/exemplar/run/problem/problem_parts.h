@@ -123,10 +123,6 @@ namespace Exemplar
   LawsOfCells
   laws_of_cells(const SceneParameters &parameters, const Body &body);
 
-  /// The terms of Psi, Eq. (5), beside the cells' own energies.
-  PotentialTerms
-  make_elastic_terms(const Body &body, const Examples &examples);
-
   /// Makes a term of one's own. It is called for each potential that needs one: that of the steps, and
   /// that of a Laboratory, whose term gets what the other remembers by PotentialTerm::save() and load().
   using MakeTerm = std::function<std::unique_ptr<PotentialTerm>()>;

@@ -62,13 +62,9 @@ namespace Exemplar
     void
     check_interpolation() const;
 
-    /// What plastic cells ask of the rest of the scene.
+    /// Throws UserError where a law of the cells refuses what stands beside it, see Refusal.
     void
-    check_plasticity() const;
-
-    /// What a neo-Hookean background asks of it.
-    void
-    check_background() const;
+    check_laws() const;
 
     void
     check_starts() const;

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/kernels/cell_model.h>
+#include <exemplar/run/scene/scene_parameters.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Whether the constants of a section give cells a law by ModelTraits::chosen_by.
+    bool
+    is_chosen(const CellLaw law, const ElasticConstants &constants)
+    {
+      const auto keys = traits_of(law).chosen_by;
+      return keys[0] != nullptr
+             && std::all_of(keys.begin(), keys.end(),
+                            [&](const char *const key)
+                            { return key == nullptr || constants.own.at(key) > 0.; });
+    }
+
+    bool
+    is_chosen_to_remember(const CellLaw law, const ElasticConstants &constants)
+    {
+      return traits_of(law).n_history > 0 && is_chosen(law, constants);
+    }
+
+    /// Whether some section gives cells a law that remembers.
+    bool
+    has_memory(const MaterialParameters &material)
+    {
+      bool has = false;
+      for (const CellLaw law : all_laws())
+        material.for_each_section(
+            [&](const ElasticConstants &constants, const std::string & /*section*/)
+            { has |= is_chosen_to_remember(law, constants); });
+      return has;
+    }
+
+    /// Whether constants give cells a law that remembers, other than `law` and its sums with fibres.
+    bool
+    has_other_memory(const CellLaw law, const ElasticConstants &constants)
+    {
+      const std::vector<CellLaw> laws = all_laws();
+      return std::any_of(laws.begin(), laws.end(),
+                         [&](const CellLaw other)
+                         {
+                           return traits_of(other).chosen_by[0] != traits_of(law).chosen_by[0]
+                                  && is_chosen_to_remember(other, constants);
+                         });
+    }
+
+    bool
+    is_there(const Beside            beside,
+             const SceneParameters  &scene,
+             const ElasticConstants &constants,
+             const CellLaw           law)
+    {
+      switch (beside)
+      {
+      case Beside::interpolation:
+        return scene.scene == SceneKind::interpolation;
+      case Beside::statics:
+        return scene.scene == SceneKind::statics;
+      case Beside::other_strain:
+        return scene.model.law() != CellLaw::corotational && !scene.material.law_of_grain();
+      case Beside::grain:
+        return scene.material.law_of_grain().has_value();
+      case Beside::fibres:
+        return constants.has_grain() && constants.orthotropy.empty();
+      case Beside::orthotropy:
+        return !constants.orthotropy.empty();
+      case Beside::memory:
+        return has_memory(scene.material);
+      case Beside::other_memory:
+        return has_other_memory(law, constants);
+      case Beside::unblended_examples:
+        return scene.examples.in_use() && scene.examples.energy != ExampleEnergy::blended;
+      case Beside::own_elasticity:
+        return scene.examples.in_use() && scene.examples.elasticity().is_own();
+      case Beside::varying_importance:
+        return scene.examples.in_use() && scene.material.importance_varies();
+      }
+      return false;
+    }
+
+    /// Where a law is chosen by these constants of a section, or by Model, refuse what it has no place beside.
+    void
+    check_law(const CellLaw           law,
+              const SceneParameters  &scene,
+              const ElasticConstants &constants,
+              const std::string      &section)
+    {
+      const char *const chosen_by = traits_of(law).chosen_by[0];
+      if (chosen_by != nullptr ? !is_chosen(law, constants) : law != scene.model.law())
+        return;
+      for (const Refusal &refusal : refusals_of(law))
+      {
+        if (refusal.constant != nullptr && !(constants.own.at(refusal.constant) > 0.))
+          continue;
+        const char *const constant = refusal.constant != nullptr ? refusal.constant : chosen_by;
+        const std::string key      = constant != nullptr
+                                         ? section + "/" + constant
+                                         : "Model/Background = " + std::string(traits_of(law).name);
+        if (is_there(refusal.beside, scene, constants, law))
+          throw UserError(key + fmt::format(fmt::runtime(refusal.words), key));
+      }
+    }
+  } // namespace
+
+  void
+  SceneParameters::check_laws() const
+  {
+    const auto check = [this](const CellLaw law)
+    {
+      material.for_each_section([&](const ElasticConstants &constants, const std::string &section)
+                                { check_law(law, *this, constants, section); });
+    };
+    check(model.law()); // what Model asks for comes first
+    for (const CellLaw law : all_laws())
+      if (law != model.law())
+        check(law);
+  }
+} // namespace Exemplar
