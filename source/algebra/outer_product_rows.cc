@@ -13,7 +13,7 @@ namespace Exemplar
   {
     using ByProcess = std::map<unsigned int, OuterProducts>;
 
-    /// To each process its products; returns what others have for this one.
+    /// Send products to each process; returns the received ones.
     ByProcess
     swap_products(const ByProcess &products, const Exchange &exchange)
     {
@@ -150,7 +150,7 @@ namespace Exemplar
 
   namespace
   {
-    /// Three numbers for each of some blocks.
+    /// A sparse vector: three numbers for each of some blocks.
     using Blocks = std::map<unsigned int, std::array<double, 3>>;
 
     void

@@ -8,9 +8,8 @@
 
 namespace Exemplar
 {
-  /// The inverse of the matrix of the coarsest level of multigrid as a dense matrix in single
-  /// precision, of which a process has its rows. What rows that depend on others would determine
-  /// is zero.
+  /// The dense inverse of the coarsest multigrid matrix in single precision, distributed by rows.
+  /// Rows and columns that Cholesky's factorisation finds linearly dependent are zero.
   class CoarsestInverse
   {
   public:

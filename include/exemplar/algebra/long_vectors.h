@@ -10,7 +10,7 @@
 
 namespace Exemplar
 {
-  /// With as many entries of b as a has.
+  /// Scalar product; b has as many entries as a.
   template <typename Number>
   double
   dot(const std::vector<double> &a, const Number *b)
@@ -37,7 +37,7 @@ namespace Exemplar
   class MaxMagnitude
   {
   public:
-    /// One more number.
+    /// Include a number.
     void
     add(const double number)
     {

@@ -8,7 +8,7 @@
 
 namespace Exemplar
 {
-  /// The triangular solves with batches of numbers; see cell_kernels_loops.h for who may include this.
+  /// Triangular solves with SIMD batches; see cell_kernels_loops.h for who may include this.
   template <typename Batch>
   struct TriangularLoops
   {
@@ -42,7 +42,7 @@ namespace Exemplar
       }
     }
 
-    /// Products of the columns with a vector over the rows from `row` to end - 1.
+    /// Scalar products of the columns with a vector over the rows from `row` to end - 1.
     template <int n>
     static void
     multiply_columns(const Number *columns,
