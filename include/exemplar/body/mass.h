@@ -15,7 +15,7 @@
 
 namespace Exemplar
 {
-  /// Sums over the moving body, with the nodal momenta p = M v.
+  /// Kinetic energy and momenta of the body, where p = M v are the nodal momenta.
   struct MotionSums
   {
     double               kinetic_energy = 0.; ///< 1/2 v^T M v [J]
@@ -29,27 +29,26 @@ namespace Exemplar
   public:
     Mass(const FESpace &fe_space, const Material &material, MassMatrix kind);
 
-    /// The cells have other densities.
+    /// Replace the densities.
     void
     set_material(const FESpace &fe_space, const Material &material);
 
-    /// Of the cells of this process.
+    /// The nodal matrix of this process' cells, a partial sum over processes.
     const dealii::SparseMatrix<double> &
     nodal() const
     {
       return matrix;
     }
 
-    /// M times a field, by degree of freedom. All processes that share the body must call this and
-    /// motion_sums().
+    /// M times a field, by degree of freedom. This and motion_sums() are collective.
     Vector
     times(const Vector &field) const;
 
-    /// What the cells of this process give to it.
+    /// Partial sum of times() over the cells of this process.
     OwnSums<Vector>
     own_times(const Vector &field) const;
 
-    /// The greatest sum of a row [kg].
+    /// Greatest row sum of the matrix [kg].
     double
     max_nodal_mass() const
     {
