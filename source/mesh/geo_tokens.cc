@@ -71,7 +71,7 @@ namespace Exemplar
           add(Kind::sign, at + 1);
       }
 
-      /// Where characters end for which `belongs` is true.
+      /// End of the characters for which `belongs` is true.
       template <typename Belongs>
       std::size_t
       end_of(const Belongs &belongs) const
@@ -90,7 +90,7 @@ namespace Exemplar
         after_gap = false;
       }
 
-      /// Go behind what is no token.
+      /// Skip blanks and comments.
       void
       skip_to(const std::size_t end)
       {
@@ -158,7 +158,7 @@ namespace Exemplar
       }
 
       const std::string    &text;
-      GeoOrigin             origin; ///< of what comes next
+      GeoOrigin             origin; ///< of the next token
       std::size_t           at        = 0;
       bool                  after_gap = true;
       std::vector<GeoToken> tokens;
