@@ -257,7 +257,7 @@ namespace Exemplar
       for (const int entry : entries)
         values[process].push_back(lower_values[entry]);
     values = dealii::Utilities::MPI::some_to_some(numbers.exchange().communicator(), values);
-    for (const auto &[process, places] : places_of_received) // in the order of the processes
+    for (const auto &[process, places] : places_of_received) // sums in the order of the processes
       for (std::size_t k = 0; k < places.size(); ++k)
         matrix.value[places[k]] += values[process][k];
   }

@@ -96,7 +96,7 @@ namespace Exemplar
         factor.reset();
         if (rough_factor.use_count() != 1) // none yet, or the last one is kept
           rough_factor = std::make_shared<MultifrontalFactor<float>>(structure, threads_at_work());
-        if (!rough_factor->factorize(matrix_values)) // in single precision, at least
+        if (!rough_factor->factorize(matrix_values)) // not definite in single precision, at least
           factorize(positions);
       }
 

@@ -329,7 +329,7 @@ namespace Exemplar
       const std::size_t                 group_size;
       std::vector<double>               weights;
       std::vector<bool>                 at_bound;
-      std::vector<int>                  side; ///< of its kink, as side_of(); 0 without kinks
+      std::vector<int>                  side; ///< side_of() each weight; 0 without kinks
     };
   } // namespace
 

@@ -161,7 +161,7 @@ namespace Exemplar
     {
       if (!constants.has_grain() || cells.empty())
         return;
-      constexpr double          rounding  = 1e-9; // of a gradient, relative to the greatest
+      constexpr double          rounding  = 1e-9; // relative rounding of a gradient
       const auto               &along     = directions.along(constants, section);
       const bool                has_cross = !constants.cross_direction.empty();
       double                    maximum   = 0.;

@@ -143,8 +143,8 @@ namespace Exemplar
                                                                  : StraightTurn{ turn.angle, size };
     }
 
-    /// The angle [rad] by which `motion` turns points of the handle as a rigid body from one time to
-    /// another, to and fro summed up.
+    /// The angle [rad] by which `motion` turns points of the handle as a rigid body from one time
+    /// to another, to and fro summed up.
     double
     turn_between(const Handle &handle, const Points &rest, const double begin, const double end)
     {

@@ -216,9 +216,9 @@ namespace Exemplar
       const std::vector<Kind>                        &kinds;
       const std::vector<std::vector<unsigned int>>    around;  ///< the cells at each node
       const std::vector<std::array<unsigned int, 4>>  beside;  ///< cells_beside()
-      std::vector<unsigned int>                       patch;   ///< of each cell
-      std::vector<int>                                n_cells; ///< of each patch
-      std::vector<std::set<unsigned int>>             nodes;   ///< of each patch
+      std::vector<unsigned int>                       patch;   ///< patch of each cell
+      std::vector<int>                                n_cells; ///< number of cells of each patch
+      std::vector<std::set<unsigned int>>             nodes;   ///< nodes of each patch
     };
   } // namespace
 

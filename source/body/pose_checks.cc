@@ -25,7 +25,7 @@ namespace Exemplar
 
     struct PoseMeasures
     {
-      double                   size_ratio; ///< of the pose to the rest pose
+      double                   size_ratio; ///< size of the pose over that of the rest pose
       double                   max_strain     = 0.;
       double                   max_abs_volume = 0.; ///< det F over size_ratio^3
       std::vector<std::size_t> inverted;            ///< element numbers

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// What gmsh and meshio convert: https://gmsh.info/doc/texinfo/gmsh.html, https://github.com/nschloe/meshio
+// SPDX-License-Identifier: GPL-3.0-or-later What gmsh and meshio convert:
+// https://gmsh.info/doc/texinfo/gmsh.html, https://github.com/nschloe/meshio
 #include <exemplar/mesh/foreign_formats.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace Exemplar
     {
       std::string              name;
       Way                      way;
-      std::vector<std::string> extensions; ///< in small letters
+      std::vector<std::string> extensions; ///< extensions in lower case
       std::vector<std::string> beginnings; ///< first bytes of such files; may be empty
     };
 

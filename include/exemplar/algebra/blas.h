@@ -2,8 +2,8 @@
 #ifndef exemplar_blas_h
 #define exemplar_blas_h
 
-// Two functions of BLAS for both precisions. Matrices are stored by columns, `stride` apart. No deal.II
-// header here: see matrix3.h.
+// Two functions of BLAS for both precisions. Matrices are stored by columns, `stride` apart. No
+// deal.II header here: see matrix3.h.
 
 extern "C"
 {

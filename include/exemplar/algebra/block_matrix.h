@@ -40,7 +40,7 @@ namespace Exemplar
     void
     add_row(const std::vector<int> &columns, const std::vector<float> &blocks);
 
-    /// To be called after the last add_row().
+    /// Finish the matrix after the last add_row().
     void
     finish();
 
@@ -120,7 +120,7 @@ namespace Exemplar
             BlockVector              &x,
             BlockVector              &change) const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 

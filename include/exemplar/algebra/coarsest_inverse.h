@@ -19,7 +19,7 @@ namespace Exemplar
     void
     solve(const BlockVector &right_side, BlockVector &solution) const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const
     {

@@ -21,8 +21,8 @@ namespace Exemplar
   /// Condition numbers of the linear systems of a step; infinity: not positive definite.
   struct Conditioning
   {
-    double matrix = 0.; ///< of A, a lower bound; 0: not known
-    double schur  = 0.; ///< of the Schur complement on differences of weights; 0: there is none
+    double matrix = 0.; ///< lower bound of that of A; 0: not known
+    double schur  = 0.; ///< that of the Schur complement on differences of weights; 0: none
   };
 } // namespace Exemplar
 

@@ -15,8 +15,8 @@ namespace Exemplar
   class RowNumbers
   {
   public:
-    /// `free_dofs` must outlive this. Throws SolverFailure, in all processes, if there are more rows
-    /// than an int counts.
+    /// `free_dofs` must outlive this. Throws SolverFailure, in all processes, if there are more
+    /// rows than an int counts.
     explicit RowNumbers(const FreeDofs &free_dofs);
 
     unsigned int
@@ -86,7 +86,7 @@ namespace Exemplar
   struct CsrMatrix
   {
     std::vector<int>    row_start; ///< one more than there are rows
-    std::vector<int>    column;    ///< of each entry, ascending in a row
+    std::vector<int>    column;    ///< column of each entry, ascending in a row
     std::vector<double> value;
   };
 
@@ -118,7 +118,7 @@ namespace Exemplar
     void
     multiply(const Vector &vector, Vector &image) const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -194,9 +194,9 @@ namespace Exemplar
     const RowNumbers         numbers;
     CsrMatrix                matrix;
     const SymmetricPattern  *pattern = nullptr;
-    std::vector<int>         local_columns;      ///< of each entry of FreeDofs::local_list()
-    std::vector<std::size_t> other_nodes;        ///< of ghost columns, global numbers, ascending
-    ByProcess<int>           foreign_entries;    ///< in the pattern, for the rows of others
+    std::vector<int>         local_columns;      ///< columns of FreeDofs::local_list()
+    std::vector<std::size_t> other_nodes;        ///< global numbers of ghost nodes, ascending
+    ByProcess<int>           foreign_entries;    ///< entries of the pattern in others' rows
     ByProcess<int>           places_of_received; ///< positions among the values, by sender
     Halo                     halo;
   };

@@ -56,26 +56,26 @@ namespace Exemplar
       return first_value.back();
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
     std::vector<int>         permutation;  ///< row i of L is row permutation[i] of A
-    std::vector<int>         first_column; ///< of each supernode, and n
-    std::vector<std::size_t> first_row;    ///< where its rows begin in `rows`, and the end
-    std::vector<std::size_t> first_value;  ///< where its panel begins among the values, and the end
+    std::vector<int>         first_column; ///< first column of each supernode, and n
+    std::vector<std::size_t> first_row;    ///< begin of its rows in `rows`, and the end
+    std::vector<std::size_t> first_value;  ///< begin of its panel among the values, and the end
     std::vector<int>         rows;         ///< ascending; top rows are in the tail for subtrees
-    std::vector<int>         parent;       ///< of each supernode; -1: none
+    std::vector<int>         parent;       ///< parent of each supernode; -1: none
     std::vector<int> place_in_parent;      ///< position of each of `rows` below the triangle among
                                            ///< the parent's rows
-    std::vector<std::size_t> first_entry;  ///< where a supernode's entries of A begin, and the end
+    std::vector<std::size_t> first_entry;  ///< begin of a supernode's entries of A, and the end
     std::vector<int>         entry;        ///< position of the entry on A's pattern
     std::vector<int>         place;        ///< its position in the panel
     std::vector<Subtree>     subtrees;     ///< ascending
     std::vector<int>         top;          ///< the supernodes above them, ascending
     std::vector<int>         tail;
-    int                      max_rows     = 0;  ///< of a supernode
-    double                   n_operations = 0.; ///< of a factorisation
+    int                      max_rows     = 0;  ///< greatest number of rows of a supernode
+    double                   n_operations = 0.; ///< operations of a factorisation
   };
 } // namespace Exemplar
 

@@ -132,7 +132,7 @@ namespace Exemplar
 
     std::vector<int>          index;
     std::vector<unsigned int> dofs;
-    std::vector<int>          own_index; ///< in list(), or `held`
+    std::vector<int>          own_index; ///< index in list(), or `held`
     std::vector<unsigned int> own_dofs;
     const Exchange           &with_others;
     unsigned int              n_reinits = 0;

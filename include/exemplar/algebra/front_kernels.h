@@ -15,7 +15,7 @@ namespace Exemplar
   template <typename Number>
   struct FrontKernels
   {
-    static constexpr std::size_t max_lanes = 64 / sizeof(Number); ///< in a register
+    static constexpr std::size_t max_lanes = 64 / sizeof(Number); ///< numbers in a register
 
     /// Overwrite the columns of a panel, lower triangle first, by those of its Cholesky factor.
     /// False if it is not positive definite.

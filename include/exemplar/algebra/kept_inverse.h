@@ -25,7 +25,7 @@ namespace Exemplar
     virtual double
     cost_in_iterations(std::size_t n_columns) const = 0;
 
-    /// In bytes.
+    /// Memory in bytes.
     virtual std::size_t
     memory_consumption() const = 0;
   };

@@ -30,7 +30,7 @@ namespace Exemplar
     void
     add_pair(const std::vector<double> &s, const std::vector<double> &y);
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const
     {
@@ -53,7 +53,7 @@ namespace Exemplar
       }
     }
 
-    /// For checkpoints: the complete state.
+    /// Serialise the complete state, for checkpoints.
     template <typename Archive>
     void
     serialize(Archive &archive, unsigned int /*version*/)

@@ -20,7 +20,8 @@ namespace Exemplar
     /// Greatest number of combined vectors.
     static constexpr unsigned int max_order = 5;
 
-    /// `exchange` must outlive this; `order`, from 1 to max_order, is how many vectors are combined.
+    /// `exchange` must outlive this; `order`, from 1 to max_order, is how many vectors are
+    /// combined.
     LinearPrediction(const Exchange &exchange, unsigned int order)
         : exchange(&exchange), order(order)
     {
@@ -34,7 +35,7 @@ namespace Exemplar
     std::vector<double>
     next() const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const
     {

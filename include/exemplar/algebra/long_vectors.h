@@ -33,7 +33,8 @@ namespace Exemplar
     return dot(a, b.data());
   }
 
-  /// The greatest magnitude of numbers; a NaN counts as greater than all, and std::max would lose it.
+  /// The greatest magnitude of numbers; a NaN counts as greater than all, and std::max would lose
+  /// it.
   class MaxMagnitude
   {
   public:

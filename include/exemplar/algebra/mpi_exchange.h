@@ -18,7 +18,7 @@ namespace Exemplar
   {
     std::vector<unsigned int> in_files;      ///< index of each node of this process, ascending
     std::vector<unsigned int> numbers;       ///< global number of each node
-    std::vector<unsigned int> first_numbers; ///< of each owner, then the number of all nodes
+    std::vector<unsigned int> first_numbers; ///< first number of each owner, and the total
 
     template <typename Archive>
     void
@@ -129,7 +129,7 @@ namespace Exemplar
     const MPI_Comm            mpi_communicator;
     const SharedNodes         nodes;
     const unsigned int        own_process;
-    std::vector<bool>         is_owned;             ///< of each node
+    std::vector<bool>         is_owned;             ///< owner flag of each node
     std::vector<unsigned int> owned;                ///< nodes, by ascending number
     std::vector<unsigned int> shared_owned, others; ///< owned and known to others; not owned
     std::vector<unsigned int> numbers_of_others;    ///< among shared nodes, ascending

@@ -60,7 +60,7 @@ namespace Exemplar
     double
     pivot_ratio() const;
 
-    /// In bytes, with the structure.
+    /// Memory in bytes, with the structure.
     std::size_t
     memory_consumption() const;
 

@@ -41,7 +41,7 @@ namespace Exemplar
     double
     n_blocks() const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -54,7 +54,7 @@ namespace Exemplar
       std::vector<float> inverse_diagonal; ///< 9 numbers a block, by columns
       double             maximum = 0.;     ///< greatest eigenvalue of D^-1 A
       BlockVector        solution, right_side, correction, residual;
-      BlockVector        coarser; ///< by columns of the prolongation
+      BlockVector        coarser; ///< vector by columns of the prolongation
     };
 
     /// Compute a level's solution from its right_side.

@@ -68,10 +68,10 @@ namespace Exemplar
     const double                    tolerance;
     const MakeHierarchy             make_hierarchy;
     std::vector<double>             lower_values;
-    OuterProducts                   products; ///< by node
+    OuterProducts                   products; ///< outer products by node
     DistributedRows                 rows;
     OuterProductRows<double>        product_rows;
-    std::shared_ptr<MultigridCycle> cycle; ///< of the last factorize()
+    std::shared_ptr<MultigridCycle> cycle; ///< cycle of the last factorize()
   };
 } // namespace Exemplar
 

@@ -93,7 +93,7 @@ namespace Exemplar
     OuterProducts
     complete(const OuterProducts &parts, const Exchange &exchange) const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -115,7 +115,7 @@ namespace Exemplar
 
     Halo                     halo;
     std::vector<Number>      factors;
-    std::vector<int>         start = { 0 }; ///< where each product's blocks begin, and the end
+    std::vector<int>         start = { 0 }; ///< begin of each product's blocks, and the end
     std::vector<int>         blocks;        ///< local number of each block
     std::vector<Number>      values;        ///< three a block, padded
     std::vector<int>         row_start, product_of, entry_of;

@@ -13,7 +13,7 @@ namespace Exemplar
   struct OuterProducts
   {
     std::vector<double>       factors; ///< f_k
-    std::vector<std::size_t>  ends;    ///< where each product's blocks end
+    std::vector<std::size_t>  ends;    ///< end of each product's blocks
     std::vector<unsigned int> blocks;
     std::vector<double>       values; ///< entries of u_k, three a block
 

@@ -62,7 +62,7 @@ namespace Exemplar
   /// Properties of an operator, independent of its library.
   struct OperatorTraits
   {
-    std::string name;         ///< as Solver/Linear solver names it
+    std::string name;         ///< value of Solver/Linear solver
     double n_operations = 0.; ///< floating point operations of a factorisation; 0: nothing is known
     double pivot_ratio  = 0.; ///< greatest over least pivot of the last factor, a lower bound of
                               ///< the condition number; 0: there is none

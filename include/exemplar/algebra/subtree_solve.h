@@ -55,7 +55,7 @@ namespace Exemplar
           columns[k * n + structure.permutation[i]] = permuted[k * stride + i];
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const
     {

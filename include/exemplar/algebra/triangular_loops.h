@@ -15,8 +15,8 @@ namespace Exemplar
     using Number               = typename Batch::value_type;
     static constexpr int width = Batch::size;
 
-    // The last batch reaches beyond the rows, into what follows in memory: there the block is zero or
-    // unused.
+    // The last batch reaches beyond the rows, into what follows in memory: there the block is zero
+    // or unused.
 
     static constexpr int n_at_once = 4; ///< columns
 

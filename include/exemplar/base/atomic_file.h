@@ -52,7 +52,7 @@ namespace Exemplar
 
     std::filesystem::path   path;
     std::filesystem::path   temporary;
-    OpenDirectory           directory; ///< that contains both
+    OpenDirectory           directory; ///< directory of both files
     std::unique_ptr<Buffer> buffer;
     std::ostream            out;
     bool                    committed = false;

@@ -12,7 +12,7 @@ namespace Exemplar
     std::string library; ///< "OpenBLAS 0.3.21", or "unknown" (the reference BLAS, say)
     std::string core;    ///< OpenBLAS's core type; empty for others
     std::string file;    ///< the library's file
-    int         threads; ///< as far as known
+    int         threads; ///< number of threads, as far as known
   };
 
   BlasInfo

@@ -9,7 +9,7 @@ namespace Exemplar
   /// Instruction sets for which kernels are compiled, each including the ones before.
   enum class InstructionSet
   {
-    baseline, ///< of every CPU of the architecture
+    baseline, ///< instructions of every CPU of the architecture
     avx2,     ///< x86-64-v3
     avx512    ///< x86-64-v4
   };

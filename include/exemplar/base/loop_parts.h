@@ -23,8 +23,8 @@ namespace Exemplar
         function(i, 0);
   }
 
-  /// Call function(part, begin, end) for n_parts consecutive parts of the numbers 0 to n - 1, in up to
-  /// n_threads threads.
+  /// Call function(part, begin, end) for n_parts consecutive parts of the numbers 0 to n - 1, in up
+  /// to n_threads threads.
   template <typename Function>
   void
   for_each_part(const std::size_t n_parts,

@@ -12,7 +12,7 @@ namespace Exemplar
   class MpiSession
   {
   public:
-    /// At most one at a time.
+    /// Makes the session; at most one at a time.
     MpiSession();
 
     ~MpiSession();

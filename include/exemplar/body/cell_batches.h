@@ -158,7 +158,7 @@ namespace Exemplar
       return nodes[batch_index(point, n_nodes, a)];
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -201,7 +201,7 @@ namespace Exemplar
     ExampleConstants              examples;
     double                        step_size = 0.;
     const std::size_t             n_points;
-    const std::size_t             n_nodes; ///< of each cell
+    const std::size_t             n_nodes; ///< number of nodes of each cell
     std::vector<int>              nodes;
     dealii::AlignedVector<double> gradients;
     dealii::AlignedVector<double> volumes;

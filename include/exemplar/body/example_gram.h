@@ -27,7 +27,8 @@ namespace Exemplar
             const Material     &cell_material,
             const Patches      &patches);
 
-    /// eta^2 sum V E_i : C : E_j for all pairs of weights [J]; with patches, the volume part by Eq. (25).
+    /// eta^2 sum V E_i : C : E_j for all pairs of weights [J]; with patches, the volume part by
+    /// Eq. (25).
     const dealii::FullMatrix<double> &
     matrix() const
     {
@@ -48,7 +49,7 @@ namespace Exemplar
       return patch_dilatations(patch, weight);
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -79,7 +80,7 @@ namespace Exemplar
     dealii::FullMatrix<double> patch_dilatations; ///< patch, weight; empty without patches
     dealii::FullMatrix<double> gram;
     dealii::FullMatrix<double>
-        blended; ///< see add_blended(), where the importance varies or examples have C_e; else empty
+        blended; ///< see add_blended(), where importance varies or examples have C_e; else empty
   };
 } // namespace Exemplar
 

@@ -38,7 +38,7 @@ namespace Exemplar
   struct ExamplePose
   {
     std::string            name;      ///< the file or the formula that gives it, for messages
-    dealii::Vector<double> positions; ///< of the nodes, by degree of freedom [m]
+    dealii::Vector<double> positions; ///< node positions by degree of freedom [m]
   };
 
   /// The example poses and their strains eta E_i at every quadrature point, Eqs. (4) and (5),
@@ -209,7 +209,7 @@ namespace Exemplar
       return warnings;
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 

@@ -16,7 +16,7 @@ namespace Exemplar
   /// Residual of the optimality conditions of the weights at given positions, Eq. (13).
   struct WeightResidual
   {
-    std::vector<double> multipliers; ///< of the constraint on each region's sum of weights [J]
+    std::vector<double> multipliers; ///< multiplier of each region's sum of weights [J]
     double deviation = 0.; ///< greatest violation of the conditions of Karush, Kuhn and Tucker [J]
   };
 
@@ -159,7 +159,7 @@ namespace Exemplar
       return warnings;
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 

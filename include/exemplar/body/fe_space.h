@@ -174,7 +174,7 @@ namespace Exemplar
     dealii::FullMatrix<double>
     unit_mass_matrix() const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 

@@ -22,7 +22,7 @@ namespace Exemplar
     std::vector<unsigned int> components;
     Expression                motion;
     Expression                progress; ///< fraction of the path, if there is one
-    std::optional<RigidPath>  path;     ///< of the whole handle, to the pose that it follows
+    std::optional<RigidPath>  path;     ///< path of the whole handle to the pose followed
     Motion                    function; ///< motion set by a program, instead of the others
     HoldingTime               time  = {};
     bool                      holds = true;
@@ -35,7 +35,7 @@ namespace Exemplar
       return holds ? nodes : none;
     }
 
-    std::vector<unsigned int> places_in_path = {}; ///< of each node, index in the whole handle
+    std::vector<unsigned int> places_in_path = {}; ///< index of each node in the whole handle
 
     /// Offsets of caught nodes from their prescribed motion; empty if none are caught.
     std::vector<dealii::Tensor<1, 3>> offsets = {};

@@ -106,7 +106,7 @@ namespace Exemplar
     {
       std::string               name;
       std::vector<unsigned int> nodes;
-      std::vector<double>       shares; ///< of each node; they sum to one
+      std::vector<double>       shares; ///< share of each node; they sum to one
       Expression                force;
     };
 

@@ -48,7 +48,7 @@ namespace Exemplar
     OwnSums<Vector>
     own_times(const Vector &field) const;
 
-    /// Greatest row sum of the matrix [kg].
+    /// Greatest row sum of the consistent matrix [kg].
     double
     max_nodal_mass() const
     {
@@ -58,7 +58,7 @@ namespace Exemplar
     MotionSums
     motion_sums(const State &state) const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -71,10 +71,10 @@ namespace Exemplar
     const MassMatrix             kind;
     dealii::SparsityPattern      pattern;
     dealii::SparseMatrix<double> matrix;
-    std::vector<std::size_t>     row_start; ///< a half of it once more: its entries are visited in
-    std::vector<unsigned int>    columns;   ///< every iteration, and deal.II's iterators are slow
+    std::vector<std::size_t>     row_start; ///< copy of its upper triangle, for fast products in
+    std::vector<unsigned int>    columns;   ///< every iteration: deal.II's iterators are slow
     std::vector<double>          values;
-    double                       max_row_sum = 0.; ///< of the consistent matrix [kg]
+    double                       max_row_sum = 0.; ///< row sum of the consistent matrix [kg]
   };
 } // namespace Exemplar
 

@@ -49,7 +49,7 @@ namespace Exemplar
     CellMaterial<double>                elasticity;
     double                              density;
     double                              youngs_modulus;
-    double                              poissons_ratio;    ///< as given, where isotropic
+    double                              poissons_ratio;    ///< input value, where isotropic
     double                              importance;        ///< factor of Examples/Importance
     std::shared_ptr<const OwnConstants> own;               ///< shared by many cells
     double                              lambda_of_patches; ///< [Pa]
@@ -269,8 +269,9 @@ namespace Exemplar
     double                              importance_there = 0.; ///< Examples/Importance with it
     std::vector<CellConstants>          of_body; ///< `constants` without C_e; may be empty
     std::vector<unsigned int>           constants_of_cell;
-    std::vector<GrainAxes>              axes;        ///< by cell; empty: isotropic
-    std::vector<std::array<double, 22>> stiffnesses; ///< by cell; empty: none is orthotropic
+    std::vector<GrainAxes>              axes;        ///< material axes by cell; empty: isotropic
+    std::vector<std::array<double, 22>> stiffnesses; ///< numbers of C by cell; empty: none
+                                                     ///< orthotropic
   };
 } // namespace Exemplar
 

@@ -54,11 +54,11 @@ namespace Exemplar
   {
     ElasticConstants                         everywhere;
     MassMatrix                               mass_matrix = MassMatrix::consistent;
-    std::map<unsigned int, ElasticConstants> regions;       ///< by material id
-    std::map<std::string, ElasticConstants>  named_regions; ///< by name, as the scene has it
+    std::map<unsigned int, ElasticConstants> regions;       ///< regions by material id
+    std::map<std::string, ElasticConstants>  named_regions; ///< regions by name, as in the scene
     /// Painted maps, each with its mode of use; empty: none.
     std::string              youngs_modulus_map, poissons_ratio_map, density_map, importance_map;
-    std::vector<std::string> fibre_direction_maps; ///< of x, y and z; empty: none
+    std::vector<std::string> fibre_direction_maps; ///< maps of x, y and z; empty: none
 
     bool
     is_painted() const

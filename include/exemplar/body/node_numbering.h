@@ -73,7 +73,7 @@ namespace Exemplar
     std::vector<dealii::Point<3>>
     complete(std::vector<dealii::Point<3>> places, const std::string &key) const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -83,9 +83,9 @@ namespace Exemplar
 
     const Mesh                              &mesh;
     const std::size_t                        n_per_cell;
-    std::vector<std::array<unsigned int, 2>> edges;          ///< with a node; empty: linear
+    std::vector<std::array<unsigned int, 2>> edges;          ///< edges with a node; empty: linear
     std::vector<unsigned int>                with_edges;     ///< nodes of each cell; empty: linear
-    const unsigned int                      *nodes_of_cells; ///< of with_edges, or of the mesh
+    const unsigned int                      *nodes_of_cells; ///< data of with_edges, or of the mesh
   };
 } // namespace Exemplar
 

@@ -34,9 +34,9 @@ namespace Exemplar
     /// Isotropic, with fibres of this stiffness [Pa] along the first axis.
     Orthotropy(const CellMaterial<double> &material, double fibre_stiffness);
 
-    /// E_1, E_2, E_3, nu_23, nu_13, nu_12, G_23, G_13, G_12, where nu_ab is minus the strain along b over
-    /// that along a of a tension along a. Throws UserError, calling the numbers `key`, if C would not be
-    /// positive definite.
+    /// E_1, E_2, E_3, nu_23, nu_13, nu_12, G_23, G_13, G_12, where nu_ab is minus the strain along
+    /// b over that along a of a tension along a. Throws UserError, calling the numbers `key`, if C
+    /// would not be positive definite.
     Orthotropy(const std::array<double, 9> &constants,
                double                       fibre_stiffness,
                const std::string           &key);
@@ -49,8 +49,8 @@ namespace Exemplar
     double
     least() const;
 
-    /// What patches take of C, lambda_m = 1/(I:C^-1:I) - 2/3 mu_min: C - lambda_m I (x) I is positive
-    /// definite [Pa].
+    /// The part of C that patches take, lambda_m = 1/(I:C^-1:I) - 2/3 mu_min: C - lambda_m I (x) I
+    /// is positive definite [Pa].
     double
     lambda_of_patches() const;
 

@@ -85,7 +85,7 @@ namespace Exemplar
       return lambdas[patch];
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 

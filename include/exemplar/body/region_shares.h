@@ -76,7 +76,7 @@ namespace Exemplar
       return shares.empty() ? nullptr : shares.data();
     }
 
-    /// Where each point's shares begin in list(), and its end; null: the whole body.
+    /// Begin of each point's shares in list(), and the end; null: the whole body.
     const std::size_t *
     starts() const
     {

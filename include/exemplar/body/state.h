@@ -23,9 +23,9 @@ namespace Exemplar
     Vector              previous_positions;  ///< before the last step; empty unless
     Vector              previous_velocities; ///< the time scheme has two steps
     double              previous_step = 0.;  ///< size of the last step [s]; 0: none
-    std::vector<double> weights;             ///< of the examples; empty without examples
+    std::vector<double> weights;             ///< weights of the examples; empty without
     std::vector<double> previous_weights;    ///< before the last step, as previous_positions
-    std::vector<double> multipliers;         ///< of the constraints on regions' sums of weights [J]
+    std::vector<double> multipliers;         ///< multipliers of regions' sums of weights [J]
     std::vector<double> history;         ///< history variables, equally many a cell; may be empty
     double              dissipated = 0.; ///< energy dissipated since the first step [J]
 
@@ -35,7 +35,7 @@ namespace Exemplar
       return { { &positions, &velocities, &previous_positions, &previous_velocities } };
     }
 
-    /// For boost's archives.
+    /// Serialise all fields by boost's archives.
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int /*version*/)

@@ -25,7 +25,7 @@ namespace Exemplar
   /// the whole body.
   struct StaticallyDeterminateSupport
   {
-    std::array<unsigned int, 4>     corners;   ///< of the cell
+    std::array<unsigned int, 4>     corners;   ///< nodes of the cell
     std::array<dealii::Point<3>, 4> rest;      ///< their positions at rest [m]
     std::array<unsigned int, 3>     nodes;     ///< the nodes with held degrees of freedom
     std::vector<unsigned int>       held_dofs; ///< ascending

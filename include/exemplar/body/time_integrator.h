@@ -15,7 +15,7 @@ namespace Exemplar
   struct WeightedPositions
   {
     double        weight;
-    const Vector *positions; ///< by degree of freedom [m]
+    const Vector *positions; ///< positions by degree of freedom [m]
   };
 
   /// The time scheme and the damping of dynamic scenes, Eqs. (12), (21) and (22). Velocities at the
@@ -86,7 +86,7 @@ namespace Exemplar
       return scheme == TimeScheme::implicit_euler && mass_damping == 0. && stiffness_damping == 0.;
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const
     {

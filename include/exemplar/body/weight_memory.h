@@ -17,7 +17,7 @@ namespace Exemplar
     std::vector<double> last;
     std::vector<double> base;       ///< w*
     double              gamma = 0.; ///< [1/s]
-    double              size  = 0.; ///< of the step [s]
+    double              size  = 0.; ///< step size [s]
   };
 
   /// Energy [J] that a step has dissipated, by mechanism.

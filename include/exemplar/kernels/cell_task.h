@@ -26,10 +26,10 @@ namespace Exemplar
     const double    *volumes;   ///< 1 [m^3]
     double          *rotations; ///< 9: R by rows
     CellLaw          law;
-    const double    *constants; ///< of the law's Constants
+    const double    *constants; ///< numbers of the law's Constants
     double          *history;   ///< history variables of the law
     ExampleConstants examples;
-    double           step_size;              ///< of the current step [s]; 0: outside of steps
+    double           step_size;              ///< current step size [s]; 0: outside of steps
     bool             has_other_laws = false; ///< whether some cells have another law
 
     std::size_t
@@ -54,7 +54,7 @@ namespace Exemplar
     unsigned int       n_all       = 0; ///< number of all examples
     unsigned int       n_weights   = 0;
     const double      *strains     = nullptr; ///< 6 n: xx, yy, zz, yz, xz, xy of each eta E_i
-    const std::size_t *share_start = nullptr; ///< where a cell's shares begin; null: global weights
+    const std::size_t *share_start = nullptr; ///< begin of a cell's shares; null: global weights
     const RegionShare *shares      = nullptr;
     const float       *in_single
         = nullptr; ///< the strains once more, if single precision has them exactly
@@ -108,8 +108,8 @@ namespace Exemplar
   /// layout: patch by patch four numbers for each of its nodes, the fourth 0.
   struct PatchArrays
   {
-    const std::size_t  *node_starts;  ///< where a patch's nodes begin
-    const std::size_t  *point_starts; ///< where a patch's points begin
+    const std::size_t  *node_starts;  ///< begin of a patch's nodes
+    const std::size_t  *point_starts; ///< begin of a patch's points
     const unsigned int *points;
     const double       *fractions; ///< volume of each point over that of its patch
     const int
@@ -123,18 +123,18 @@ namespace Exemplar
   {
     unsigned int patch;
     unsigned int place;   ///< index of the node in the list of nodes of all patches
-    std::size_t  offsets; ///< where its products begin in PatchColumns::offsets
+    std::size_t  offsets; ///< begin of its products in PatchColumns::offsets
   };
 
   /// Layout of the patches' outer products in the matrix: column by column, so that each value is
   /// summed by one thread, patch by patch.
   struct PatchColumns
   {
-    const std::size_t *node_starts; ///< as in PatchArrays
-    const std::size_t *starts;      ///< where a node's patches begin
+    const std::size_t *node_starts; ///< PatchArrays::node_starts
+    const std::size_t *starts;      ///< begin of a node's patches
     const PatchAtNode *patches;
     const int         *columns; ///< 3 a node: where its matrix columns begin; -1: none
-    const int         *offsets; ///< of a node's rows in the first column; -1: held
+    const int         *offsets; ///< place of a node's rows in the first column; -1: held
     const double      *factors; ///< factors of b b^T, one a patch [J]
     const double *vectors; ///< b, with the free components first at nodes that are only partly held
     const double *squares     = nullptr; ///< dm_p/dx alike; null: no stretched patch

@@ -121,7 +121,8 @@ namespace Exemplar
     return Number(2.) * material.mu * factor * contract(S, deviator(D));
   }
 
-  /// T + factor dev(C:D), the derivative of the guard's energy by S added to a stress T [Pa]; e = S - I.
+  /// T + factor dev(C:D), the derivative of the guard's energy by S added to a stress T [Pa];
+  /// e = S - I.
   template <typename Number>
   Matrix3<Number>
   add_guard_of_target(const Matrix3<Number>   &T,

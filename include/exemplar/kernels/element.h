@@ -61,7 +61,7 @@ namespace Exemplar
   {
     const char  *name;   ///< value of Model/Element in scenes
     const char  *cells;  ///< its cells in messages
-    int          degree; ///< of the shape functions
+    int          degree; ///< degree of the shape functions
     int          nodes_per_cell;
     int          points_per_cell; ///< quadrature points
     SharesByRule in_cell, on_face;

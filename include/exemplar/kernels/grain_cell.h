@@ -103,12 +103,12 @@ namespace Exemplar
     static constexpr const char *name         = "anisotropic";
     static constexpr bool        is_isotropic = false;
 
-    static constexpr std::size_t n_entries = 21; ///< of the symmetric 6 x 6 matrix of C
+    static constexpr std::size_t n_entries = 21; ///< entries of the symmetric 6 x 6 matrix of C
     static constexpr std::size_t n_numbers = 3 + n_entries;
 
     static constexpr std::array<LawConstant, 0> own_constants{};
 
-    Number lambda, mu;       ///< of C_iso, the isotropic material nearest to C
+    Number lambda, mu;       ///< Lamé's constants of C_iso, the isotropic material nearest to C
     Number least;            ///< half the least eigenvalue of C, without damping
     Number entry[n_entries]; ///< rows of the upper triangle of C, in the order of SymmetricEntries
 

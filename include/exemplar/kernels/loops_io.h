@@ -8,8 +8,8 @@
 
 #include <utility>
 
-// How the loops over the cells read the cells and nodes of a group, and how four numbers of each
-// cell are transposed into registers of one number of four cells.
+// Input of the loops over the cells: how they read the cells and nodes of a group, and transpose
+// four numbers of each cell into registers of one number of four cells.
 //
 // All of loops_*.h are templates of the number type. Only the files that compile them for an
 // instruction set include them, each for its own type: two files that instantiated them for the
@@ -24,7 +24,7 @@ namespace Exemplar::Loops
     static constexpr std::size_t width = Lanes<Number>::n;
 
     std::size_t batch;
-    std::size_t lane; ///< of the first cell in the batch
+    std::size_t lane; ///< lane of the first cell in the batch
 
     /// The cell in lane l of the register; behind the last cell the batch is filled with copies.
     std::size_t
@@ -51,7 +51,8 @@ namespace Exemplar::Loops
     return 0;
   }
 
-  /// Whether four neighbours in a batch are the points of one cell, so that their nodes are the same.
+  /// Whether four neighbours in a batch are the points of one cell, so that their nodes are the
+  /// same.
   template <int n_nodes>
   constexpr bool fours_share_nodes = points_of_cell(n_nodes) == 4;
 

@@ -65,7 +65,7 @@ namespace Exemplar::Loops
       for (int b = 0; b <= a; ++b)
       {
         const int *column = position + 3 * (a * (a + 1) / 2 + b);
-        if (column[0] < 0) // then all three are left out
+        if (column[0] < 0) // all three columns are left out
           continue;
 #pragma GCC unroll 3
         for (int j = 0; j < 3; ++j)
@@ -157,7 +157,7 @@ namespace Exemplar::Loops
           find_rotated_stiffness<Constants>(task, group, K);
           for (std::size_t first = 0; first < LaneGroup<Number>::width; first += at_once)
           {
-            Four g[n][4]; // by node a and cell
+            Four g[n][4]; // gradients by node a and cell
             for (int a = 0; a < n; ++a)
               gradients_by_cell(K, first, a, g[a]);
             for (std::size_t l = 0; l < at_once; l += n_points)

@@ -13,9 +13,10 @@
 //   psi = (1 - eta) psi_b(F) + eta/2 (e - E(w)) : C : (e - E(w)),
 //   psi_b = mu_S/2 (I_C - 3) + lambda_S/2 (J - J_0)^2 - mu_S/2 log(I_C + 1) + const,
 //
-// mu_S = 4/3 mu, lambda_S = lambda + 5/6 mu, J_0 = 1 + mu / lambda_S, so that psi_b is 1/2 e:C:e near the
-// rest pose. The convex tangent is that of CorotationalCell. In patches, Eq. (37), cells have the same psi_b of
-// lambda = 0 and a pressure along cof F. No deal.II header here: see matrix3.h.
+// mu_S = 4/3 mu, lambda_S = lambda + 5/6 mu, J_0 = 1 + mu / lambda_S, so that psi_b is 1/2 e:C:e
+// near the rest pose. The convex tangent is that of CorotationalCell. In patches, Eq. (37), cells
+// have the same psi_b of lambda = 0 and a pressure along cof F. No deal.II header here: see
+// matrix3.h.
 
 namespace Exemplar
 {

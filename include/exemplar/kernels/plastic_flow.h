@@ -261,7 +261,7 @@ namespace Exemplar
     Number          size       = Number(1.); ///< |xi|
     Number          multiplier = Number(0.);
     Number          g          = Number(0.);
-    bool            is_flowing = false;      ///< in some lane
+    bool            is_flowing = false;      ///< whether some lane flows
     Matrix3<Number> n;                       ///< direction of the flow
     Number          turning    = Number(0.); ///< eigenvalue of inverse_times() normal to n
     Number          stretching = Number(0.); ///< eigenvalue along n

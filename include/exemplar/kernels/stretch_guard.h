@@ -18,8 +18,8 @@
 //
 // with p = (s_1+s_2)(s_2+s_3)(s_3+s_1) and a smooth q >= max(c, 0). At the kink y is about
 // s_2 + s_3 and r' = -1, so that the slope of the whole is about c - 4 q < 0: cells are pushed off
-// the kink to where the energy has a smooth minimum. Gamma is 0 unless |F| > 1 + 0.8/nu and y < y_0.
-// No deal.II header here: see matrix3.h.
+// the kink to where the energy has a smooth minimum. Gamma is 0 unless |F| > 1 + 0.8/nu and
+// y < y_0. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {

@@ -173,7 +173,7 @@ namespace Exemplar
                const std::filesystem::path         &file,
                const std::string                   &comment = "") const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 

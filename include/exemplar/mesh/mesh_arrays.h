@@ -13,7 +13,7 @@ namespace Exemplar
   /// A checked tetrahedral mesh. Node i is the i-th node of the file, cell c its c-th tetrahedron.
   struct MeshArrays
   {
-    MshFile                                  contents; ///< as read, nodes scaled [m]
+    MshFile                                  contents; ///< the file as read, with scaled nodes [m]
     std::vector<std::array<unsigned int, 4>> cells;    ///< positively oriented
     std::vector<unsigned int>                material_ids;
     std::vector<std::size_t>                 element_numbers; ///< numbers in the file

@@ -29,7 +29,7 @@ namespace Exemplar
     std::array<unsigned int, 3> nodes;
     unsigned int                boundary_id;
 
-    /// For boost's archives, by which processes send faces to each other.
+    /// Serialise by boost's archives, by which processes send faces to each other.
     template <typename Archive>
     void
     serialize(Archive &archive, unsigned int /*version*/)

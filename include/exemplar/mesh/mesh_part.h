@@ -18,7 +18,7 @@ namespace Exemplar
   {
     unsigned int           n_nodes  = 0;
     unsigned int           n_cells  = 0;
-    double                 diameter = 0.; ///< of the bounding box [m]
+    double                 diameter = 0.; ///< diagonal of the bounding box [m]
     std::set<unsigned int> material_ids;
 
     template <typename Archive>
@@ -36,7 +36,7 @@ namespace Exemplar
     WholeMesh                       whole;
     MeshArrays                      arrays;        ///< without elements
     std::vector<unsigned int>       cells_in_file; ///< index of each cell in the whole
-    std::shared_ptr<const Exchange> exchange;      ///< with the processes of the other parts
+    std::shared_ptr<const Exchange> exchange;      ///< exchange with the other parts
     /// The file as read (scaled), at the root; null elsewhere.
     std::shared_ptr<const MshFile> contents_of_whole;
 

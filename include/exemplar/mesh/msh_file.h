@@ -28,7 +28,7 @@ namespace Exemplar
   {
     std::vector<std::size_t>      node_numbers; ///< the file's node numbers, in file order
     std::vector<dealii::Point<3>> nodes;        ///< coordinates [m], in file order
-    std::vector<MshElement>       elements;     ///< in file order
+    std::vector<MshElement>       elements;     ///< elements in file order
     /// (dimension, physical tag) -> name
     std::map<std::pair<int, int>, std::string> physical_names;
     std::string note = {}; ///< for the user, on conversions of the file; empty: none

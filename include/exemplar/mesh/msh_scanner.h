@@ -17,7 +17,7 @@ namespace Exemplar
     /// `name` stands for the file in messages.
     MshScanner(std::string bytes, const std::string &name);
 
-    /// From here on the `read_` functions read binary numbers (true) or text.
+    /// Let the `read_` functions read binary numbers (true) or text from here on.
     void
     set_binary(bool binary);
 

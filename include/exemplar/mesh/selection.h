@@ -19,7 +19,7 @@ namespace Exemplar
   /// group NAME | map FILE.
   struct Selection
   {
-    std::string text; ///< as in the scene, with an absolute FILE
+    std::string text; ///< text of the scene, with an absolute FILE
 
     void
     declare(KeyTable &keys, const std::string &what);
@@ -32,7 +32,7 @@ namespace Exemplar
     bool
     is_boundary() const;
 
-    /// Whether it is a box or a sphere.
+    /// Whether the selection is a box or a sphere.
     bool
     is_of_space() const;
 
@@ -41,8 +41,8 @@ namespace Exemplar
     std::string
     doubt() const;
 
-    /// Whether it needs the surface of the body: its nodes are then found elsewhere and passed
-    /// among the named ones, by `text`.
+    /// Whether the selection needs the surface of the body: its nodes are then found elsewhere and
+    /// passed among the named ones, by `text`.
     bool
     is_of_surface() const;
 
