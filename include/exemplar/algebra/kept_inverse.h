@@ -19,9 +19,9 @@ namespace Exemplar
     apply(std::vector<double> &vector)
         = 0;
 
-    /// Cost of a new factorisation and of solving for n_columns right sides with it, in units of
-    /// one iteration that evaluates the forces and applies the inverse once: from operation counts,
-    /// never from a clock.
+    /// Cost of making this inverse anew and of solving for n_columns right sides with the new
+    /// matrix, in units of one iteration that evaluates the forces and applies the inverse once:
+    /// from operation counts, never from a clock.
     virtual double
     cost_in_iterations(std::size_t n_columns) const = 0;
 

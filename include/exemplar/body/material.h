@@ -270,8 +270,7 @@ namespace Exemplar
     std::vector<CellConstants>          of_body; ///< `constants` without C_e; may be empty
     std::vector<unsigned int>           constants_of_cell;
     std::vector<GrainAxes>              axes;        ///< material axes by cell; empty: isotropic
-    std::vector<std::array<double, 22>> stiffnesses; ///< numbers of C by cell; empty: none
-                                                     ///< orthotropic
+    std::vector<std::array<double, 22>> stiffnesses; ///< numbers of C by cell; may be empty
   };
 } // namespace Exemplar
 

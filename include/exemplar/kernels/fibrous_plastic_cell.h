@@ -8,7 +8,8 @@
 // Plastic cells with elastic fibres. Radial return requires isotropy, so the fibres see the whole
 // strain e instead of its elastic part:
 //
-//   psi = psi of PlasticCell + 1/2 (e - D) : C_a : (e - D) + its guard, C_a = alpha a a a a, D = eta E(w),
+//   psi = psi of PlasticCell + 1/2 (e - D) : C_a : (e - D) + its guard,
+//   C_a = alpha a a a a,   D = eta E(w),
 //
 // see grain_cell.h. Both parts are functions of the same S, and all members are linear in the
 // energy, so the cell is a sum of two. No deal.II header here: see matrix3.h.

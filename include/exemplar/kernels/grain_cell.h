@@ -10,7 +10,7 @@
 // the rotation is ambiguous S itself jumps, so the guard phi multiplies all terms of C_a with S,
 // where e = S - I:
 //
-//   psi = 1/2 (e - D) : C : (e - D) + (1 - phi) (2 mu S : dev D - 1/2 e : C_a : (e - 2 D)),   Eq. (16)
+//   psi = 1/2 (e - D):C:(e - D) + (1 - phi) (2 mu S : dev D - 1/2 e:C_a:(e - 2 D)),   Eq. (16)
 //
 // The term 1/2 D:C_a:D is not guarded, so that the second derivative by D stays constant. No
 // deal.II header here: see matrix3.h.
