@@ -34,7 +34,7 @@ namespace Exemplar
       }
     }
 
-    /// What another process has thrown.
+    /// Rethrow the exception of another process.
     [[noreturn]] void
     throw_as(const char kind, const std::string &message)
     {
@@ -60,7 +60,7 @@ namespace Exemplar
     }
     const std::string message = exchange.first_text(own == nullptr ? "" : message_of(own));
     if (own != nullptr)
-      std::rethrow_exception(own); // as it is: who catches it may know more of it than its text
+      std::rethrow_exception(own); // unchanged: its type and data may tell more than its text
     if (!message.empty())
       throw_as(message[0], message.substr(1));
   }

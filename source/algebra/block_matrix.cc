@@ -24,7 +24,7 @@ namespace Exemplar
       std::memcpy(place, &value, sizeof(value));
     }
 
-    /// A block times three numbers.
+    /// Product of a block with a vector of three.
     Register
     times(const float *block, const float *x)
     {
@@ -195,7 +195,7 @@ namespace Exemplar
 
   namespace
   {
-    /// Blocks of columns of other processes, ascending.
+    /// Global numbers of the ghost column blocks, ascending.
     std::vector<std::size_t>
     blocks_of_others(const std::vector<std::size_t> &columns, const std::size_t n_own)
     {
@@ -207,7 +207,7 @@ namespace Exemplar
       return others;
     }
 
-    /// Of each column, by local number.
+    /// Local block number of each scalar column.
     std::vector<int>
     blocks_of_columns(const std::vector<std::size_t> &columns,
                       const std::size_t               n_own,

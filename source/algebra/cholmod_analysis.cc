@@ -57,8 +57,8 @@ namespace Exemplar
   cholmod_factor *
   analyze(const SymmetricPattern &pattern, CholmodCommon &common, const std::vector<int> &order)
   {
-    // One thread at a time: METIS, which orders large matrices, draws from the one sequence of
-    // random numbers of the C library, and the order decides the last digits.
+    // One thread at a time: METIS, which orders large matrices, draws from the C library's global
+    // sequence of random numbers, and the ordering decides the last digits.
     static std::mutex                 of_random_numbers;
     const std::lock_guard<std::mutex> lock(of_random_numbers);
     const OneOpenMPThread             one_thread;
@@ -77,7 +77,7 @@ namespace Exemplar
 
   namespace
   {
-    /// Of each column of L its supernode.
+    /// The supernode of each column of L.
     std::vector<int>
     supernodes(const FactorStructure &structure)
     {
@@ -99,7 +99,7 @@ namespace Exemplar
               = supernode_of[structure.rows[structure.first_row[s] + structure.n_columns(s)]];
     }
 
-    /// Mark where the rows of a supernode stand in its panel.
+    /// Set place_of[row] to the position of each row of a supernode in its panel.
     void
     mark_rows(const FactorStructure &structure, const int s, std::vector<int> &place_of)
     {
@@ -126,7 +126,7 @@ namespace Exemplar
       }
     }
 
-    /// Sort the entries of A by supernodes, in two passes that count and place.
+    /// Sort the entries of A by supernode, by counting sort in two passes.
     void
     find_entries(const SymmetricPattern &pattern, FactorStructure &structure)
     {
@@ -161,7 +161,7 @@ namespace Exemplar
       }
     }
 
-    /// Operations of each supernode with all below it.
+    /// Floating point operations of the subtree below each supernode, itself included.
     std::vector<double>
     operations_of_subtrees(const FactorStructure &structure)
     {
@@ -176,8 +176,8 @@ namespace Exemplar
       return operations;
     }
 
-    /// Let a subtree see the rows of the top as entries of its own part of the tail: those of its root,
-    /// which are all that it has there.
+    /// Renumber a subtree's ancestor rows into its private tail: the rows of its root below the
+    /// triangle, which include those of all its supernodes.
     void
     give_tail(FactorStructure &structure, FactorStructure::Subtree &subtree)
     {
@@ -200,8 +200,8 @@ namespace Exemplar
                                                  - structure.tail.begin());
     }
 
-    /// Cut the tree where what is below takes at most a thirtieth of the operations, or no longer than
-    /// a thread takes to begin.
+    /// Cut the elimination tree where a subtree takes at most a thirtieth of the operations, or no
+    /// longer than starting a thread.
     void
     find_subtrees(FactorStructure &structure)
     {

@@ -8,7 +8,7 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr double min_pivot_ratio = 1e-6; ///< less in single precision: a row depends on others
+    constexpr double min_pivot_ratio = 1e-6; ///< relative pivots below count as zero
 
     std::size_t
     place(const std::size_t row)
@@ -16,13 +16,13 @@ namespace Exemplar
       return 4 * (row / 3) + row % 3;
     }
 
-    /// The own rows of a matrix as a dense one, one after the other.
+    /// The owned rows of a matrix as dense ones, one after the other.
     std::vector<float>
     dense_rows(const BlockMatrix &matrix, const std::size_t first, const std::size_t n)
     {
       const std::size_t  n_own = 3 * matrix.n_rows();
       std::vector<float> rows(n_own * n);
-      // columns of others have no numbers that would tell where they are: multiply by unit vectors
+      // the global numbers of ghost columns are unknown here: multiply by unit vectors
       BlockVector x = matrix.zeros(), image = matrix.zeros();
       for (std::size_t column = 0; column < n; ++column)
       {
@@ -54,7 +54,7 @@ namespace Exemplar
                           { return pivot > min_pivot_ratio * entry ? pivot : 0.; });
     inverse.resize(n_own * n);
     std::vector<double> unit(n);
-    for (std::size_t i = 0; i < n_own; ++i) // columns are rows
+    for (std::size_t i = 0; i < n_own; ++i) // symmetric: columns of the inverse are its rows
     {
       std::fill(unit.begin(), unit.end(), 0.);
       unit[first + i] = 1.;

@@ -11,7 +11,7 @@ namespace Exemplar
   {
     using Place = std::pair<unsigned int, unsigned int>;
 
-    /// Of the entry with the greatest absolute value in the rows from `first` on.
+    /// Row and column of the entry of greatest absolute value in rows `first` and following.
     Place
     place_of_greatest(const dealii::FullMatrix<double> &matrix, const unsigned int first)
     {

@@ -155,7 +155,7 @@ namespace Exemplar
   void
   DistributedRows::insert_couplings(const ByProcess<int> &received)
   {
-    // an entry that several processes know is counted more than once at first
+    // an entry of several processes is counted more than once at first
     const unsigned int       n = numbers.n_rows();
     std::vector<std::size_t> start(n + 1, 0);
     for_each_coupling(received, [&](const int row, int /*other*/) { ++start[row + 1]; });
@@ -166,7 +166,7 @@ namespace Exemplar
     matrix.row_start.assign(start.begin(), start.end());
     matrix.column.resize(start.back());
     for (unsigned int row = 0; row < n; ++row)
-      matrix.column[start[row]] = static_cast<int>(row); // of held components this remains
+      matrix.column[start[row]] = static_cast<int>(row); // diagonal; alone in held rows
     for_each_coupling(received,
                       [&](const int row, const int other) { matrix.column[start[row]++] = other; });
   }
@@ -230,7 +230,7 @@ namespace Exemplar
   {
     const int        n_own = static_cast<int>(numbers.n_rows());
     std::vector<int> next(matrix.row_start.begin(),
-                          matrix.row_start.end() - 1); // own columns come in their order
+                          matrix.row_start.end() - 1); // owned columns ascend
     for_each_entry(local_columns,
                    [&](const int row, const int other, const int entry)
                    {
@@ -239,7 +239,7 @@ namespace Exemplar
                      int place = next[row];
                      if (other < n_own)
                      {
-                       while (matrix.column[place] != other) // passes what others alone couple
+                       while (matrix.column[place] != other) // skips others' entries
                          ++place;
                        next[row] = place + 1;
                      }
@@ -257,7 +257,7 @@ namespace Exemplar
       for (const int entry : entries)
         values[process].push_back(lower_values[entry]);
     values = dealii::Utilities::MPI::some_to_some(numbers.exchange().communicator(), values);
-    for (const auto &[process, places] : places_of_received) // in the order of the processes
+    for (const auto &[process, places] : places_of_received) // sums in the order of the processes
       for (std::size_t k = 0; k < places.size(); ++k)
         matrix.value[places[k]] += values[process][k];
   }
@@ -269,7 +269,7 @@ namespace Exemplar
     for (unsigned int row = 0; row < numbers.n_rows(); ++row)
     {
       const double further = further_diagonal.empty() ? 0. : further_diagonal[row];
-      is_positive = is_positive && matrix.value[place_of(row, row)] + further > 0.; // nor a NaN
+      is_positive = is_positive && matrix.value[place_of(row, row)] + further > 0.; // NaN fails
     }
     if (numbers.exchange().any(!is_positive))
       throw indefinite_matrix();

@@ -9,14 +9,14 @@ namespace Exemplar
 {
   namespace
   {
-    // Fronts are cut into blocks of these sizes whatever the number of threads. BLAS, which packs its
-    // operands, is faster than the kernels where these no longer fit into the caches.
+    // Fronts are cut into blocks of these sizes whatever the number of threads. BLAS, which packs
+    // its operands, is faster than our kernels where operands exceed the caches.
 
-    constexpr int great_columns = 64, great_rows = 256; ///< of a panel for BLAS
+    constexpr int great_columns = 64, great_rows = 256; ///< least size of a panel for BLAS
     constexpr int rows_of_block = 256, columns_of_square = 96;
 
-    /// Threads for n pieces of work of so many operations each: to start a thread takes as long as
-    /// some ten thousand.
+    /// Number of threads for n tasks of so many operations each: starting a thread takes as long as
+    /// some ten thousand operations.
     int
     threads_for(const int n_threads, const int n, const double operations)
     {
@@ -144,7 +144,7 @@ namespace Exemplar
     for (int c = 0; c < n; c += great_columns)
     {
       const int m = std::min(great_columns, n - c), below = c + m;
-      // columns c to below - 1: their rows lose what the columns before have
+      // update columns c to below - 1 by the columns before them
       const int blocks = n_blocks(n_rows - c, rows_of_block);
       for_each_task(blocks, threads_for(n_threads, blocks, 2e4 * c),
                     [&](const int b, int /*thread*/)

@@ -19,7 +19,7 @@ namespace Exemplar
              const unsigned int              n_each,
              const Exchange                 &exchange)
   {
-    if (firsts.back() == 0) // of nothing deal.II makes no partition
+    if (firsts.back() == 0) // deal.II makes no partition of nothing
       return;
     dealii::IndexSet own(n_each * firsts.back()), ghosts(n_each * firsts.back());
     own.add_range(n_each * firsts[exchange.process()], n_each * firsts[exchange.process() + 1]);

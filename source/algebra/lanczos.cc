@@ -23,13 +23,13 @@ namespace Exemplar
       return exchange.sum(sum);
     }
 
-    /// Lanczos' tridiagonal matrix: its diagonal, and what is beside it.
+    /// Lanczos' symmetric tridiagonal matrix: its diagonal and its off-diagonal.
     struct Tridiagonal
     {
       std::vector<double> diagonal, beside;
     };
 
-    /// Conjugate gradients, of which the factors are those of Lanczos' method.
+    /// Conjugate gradients, whose coefficients give Lanczos' tridiagonal matrix.
     Tridiagonal
     iterate(const BlockMatrix &matrix, const Precondition &precondition, const Exchange &exchange)
     {
@@ -38,7 +38,7 @@ namespace Exemplar
       BlockVector       r = matrix.zeros(), p = r, image = r;
       double            old_product = 0., old_length = 0.;
       for (std::size_t i = 0; i < 4 * n; ++i)
-        r[i] = std::sin(1.F + 1.7F * static_cast<float>(i % 1000)); // any vector
+        r[i] = std::sin(1.F + 1.7F * static_cast<float>(i % 1000)); // an arbitrary start vector
       for (unsigned int k = 0; k < n_lanczos_steps; ++k)
       {
         const BlockVector &z       = precondition(r);

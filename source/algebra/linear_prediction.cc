@@ -7,12 +7,12 @@ namespace Exemplar
 {
   namespace
   {
-    /// Of the trace of the normal equations; so little that it only decides where they are
-    /// singular.
+    /// Ridge relative to the trace of the normal equations, so small that it matters only where
+    /// they are singular.
     constexpr double ridge = 1e-10;
 
-    /// How much longer than the last vector the next one may be. Of a body that has been at rest and is
-    /// pulled, the ratio of two velocities is that of a motion to rounding.
+    /// Greatest norm of the next vector relative to the last. When a body at rest is first pulled,
+    /// the ratio of two velocities is that of a motion to rounding.
     constexpr double max_growth = 4.;
   } // namespace
 
@@ -27,7 +27,7 @@ namespace Exemplar
   LinearPrediction::restore(std::deque<std::vector<double>> vectors)
   {
     history = std::move(vectors);
-    if (history.size() > order + 1) // of one of higher order
+    if (history.size() > order + 1) // left over from a higher order
       history.resize(order + 1);
     for (std::size_t i = history.size(); i-- > 0;)
       multiply_out(i);

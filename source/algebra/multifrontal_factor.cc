@@ -12,7 +12,8 @@ namespace Exemplar
 {
   namespace
   {
-    /// L^-1, or L^-T, for columns of a vector by supernodes begin to end - 1, by BLAS.
+    /// Multiplication of several columns by L^-1 or L^-T, restricted to supernodes begin to
+    /// end - 1, by BLAS.
     template <typename Number>
     struct SeveralColumns
     {
@@ -60,10 +61,10 @@ namespace Exemplar
     private:
       struct Front
       {
-        int                        n, below; ///< columns, and rows below them
-        const int                 *rows;     ///< below
+        int                        n, below; ///< number of columns, and of rows below the triangle
+        const int                 *rows;     ///< numbers of the rows below the triangle
         Blas::Matrix<const Number> L;
-        Blas::Matrix<Number>       own; ///< the entries of its columns
+        Blas::Matrix<Number>       own; ///< right sides at the supernode's columns
       };
 
       Front

@@ -13,11 +13,11 @@ namespace Exemplar
   {
     // chosen by measurement, doc/measured.md
     constexpr unsigned int smoother_degree = 2;
-    constexpr double       smoother_range  = 20.; ///< greatest over least eigenvalue that it damps
-    constexpr double       greatest_is_above = 1.1; ///< what Lanczos' method finds
+    constexpr double       smoother_range  = 20.; ///< ratio of greatest to least damped eigenvalue
+    constexpr double       greatest_is_above = 1.1; ///< safety factor of Lanczos' estimate
 
-    /// The inverses of the blocks of the diagonal, by columns; of their diagonals, where they are
-    /// singular, as they are where an aggregate has too few nodes to turn.
+    /// Inverses of the diagonal blocks, by columns; of a singular block, those of its diagonal
+    /// entries. Blocks are singular where an aggregate has too few nodes to rotate.
     std::vector<float>
     invert_diagonal(const BlockMatrix &matrix)
     {

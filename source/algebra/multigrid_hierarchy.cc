@@ -8,7 +8,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// Three by three numbers, or three, for each of few of very many blocks.
+    /// A sparse accumulator: n numbers (9 or 3) for each of few of very many blocks.
     template <unsigned int n>
     class FewBlocks
     {
@@ -28,7 +28,7 @@ namespace Exemplar
         return &values[n * place_of[block]];
       }
 
-      /// Forget them; calls action(blocks, values) before, with the blocks ascending.
+      /// Empty it; calls action(blocks, values) before, with ascending blocks.
       template <typename Action>
       void
       take(const Action &action)
@@ -53,7 +53,7 @@ namespace Exemplar
       std::vector<float> values;
     };
 
-    /// P^T u of each product, with the numbers among all processes of the columns of P.
+    /// Galerkin coarsening: P^T u of each product, by global numbers of the columns of P.
     OuterProducts
     coarsen(const OuterProductRows<float>  &products,
             const BlockMatrix              &prolongation,
@@ -91,7 +91,7 @@ namespace Exemplar
       return products.complete(own_parts, exchange);
     }
 
-    /// The local numbers of blocks in a matrix with these `others`, by their numbers among all processes.
+    /// Local numbers of blocks, from global ones, in a matrix with the ghost blocks `others`.
     std::vector<int>
     local_numbers(const std::vector<std::size_t> &numbers,
                   const std::size_t               first,
@@ -108,7 +108,7 @@ namespace Exemplar
       return local;
     }
 
-    /// The sum of both, assembled.
+    /// The assembled sum of a matrix and outer products.
     BlockMatrix
     sum(const BlockMatrix              &matrix,
         const OuterProductRows<float>  &products,

@@ -12,11 +12,11 @@ namespace Exemplar
   namespace
   {
     // chosen by measurement, doc/measured.md
-    constexpr double       cycles_leave   = 0.3; ///< of an error, at most
+    constexpr double       cycles_leave   = 0.3; ///< greatest remaining part of the error
     constexpr unsigned int max_cycles     = 10;
-    constexpr double       cycle_is_above = 1.05; ///< what Lanczos' method finds
+    constexpr double       cycle_is_above = 1.05; ///< safety factor of Lanczos' estimate
 
-    /// How many steps of Chebyshev's iteration leave little enough of an error.
+    /// Least number of steps of Chebyshev's iteration that reduce the error to cycles_leave.
     unsigned int
     find_n_cycles(const double condition)
     {
@@ -46,14 +46,14 @@ namespace Exemplar
   void
   MultigridInverse::count_operations()
   {
-    // nanoseconds on the machine of doc/measured.md; only their ratio matters
+    // cost in nanoseconds on the machine of doc/measured.md; only ratios matter
     std::vector<double> counts{ static_cast<double>(row_of.size()),
                                 static_cast<double>(cycle->matrix().n_blocks()),
                                 cycle->n_blocks() };
     exchange.sum(counts);
     const double iteration  = 60. * counts[0] + 2.6 * n_cycles * (counts[1] + counts[2]);
     relative_cost           = 2000. * counts[1] / iteration;
-    relative_cost_of_column = 1100. * counts[1] / iteration; // by conjugate gradients to 1e-8
+    relative_cost_of_column = 1100. * counts[1] / iteration; // conjugate gradients to 1e-8
   }
 
   void
@@ -81,7 +81,7 @@ namespace Exemplar
   void
   MultigridInverse::apply(std::vector<double> &vector)
   {
-    // of forces that shrink by ten orders of magnitude single precision would lose the last
+    // scaled: forces that shrink by ten orders of magnitude would underflow in single precision
     const double scale = exchange.max(max_entry(vector));
     if (scale == 0.)
       return;

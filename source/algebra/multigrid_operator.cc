@@ -19,15 +19,15 @@
 
 namespace Exemplar
 {
-  /// The rows that a process has of a vector, as deal.II's solver takes them: its products are
-  /// sums over all processes.
+  /// The owned rows of a distributed vector, for deal.II's solver: scalar products are sums over
+  /// all processes.
   class SharedVector : public Vector
   {
   public:
     SharedVector() = default;
 
-    /// Where there are no rows, an entry of zero stands for them: deal.II asserts in Debug that
-    /// vectors are not empty.
+    /// Without rows the vector has one entry of zero: deal.II asserts in Debug that vectors are not
+    /// empty.
     SharedVector(const unsigned int n, const Exchange &exchange)
         : Vector(std::max(n, 1U)), exchange(&exchange)
     {
@@ -60,8 +60,8 @@ namespace Exemplar
       return exchange->sum(Vector::add_and_dot(factor, v, w));
     }
 
-    /// Not deal.II's product, because that asserts in Debug that it is finite. Here it may be
-    /// infinite or NaN, which check_curvature() and solve() report.
+    /// Scalar product. deal.II's asserts in Debug that it is finite; here it may be infinite or
+    /// NaN, which check_curvature() and solve() report.
     double
     dot(const SharedVector &other) const
     {
@@ -76,16 +76,16 @@ namespace Exemplar
   {
     constexpr unsigned int max_iterations = 1000;
 
-    /// Throws unless x A x > 0: there conjugate gradients would go astray, and Newton's
-    /// method wants to know.
+    /// Throws unless x^T A x > 0: otherwise conjugate gradients would diverge, and Newton's method
+    /// has to know.
     void
     check_curvature(const SharedVector &direction, const SharedVector &image)
     {
-      if (!(direction.dot(image) > 0.)) // nor is a NaN
+      if (!(direction.dot(image) > 0.)) // false for a NaN, too
         throw indefinite_matrix();
     }
 
-    /// What deal.II's solver multiplies with: the matrix, and the multigrid cycle.
+    /// Adapter for deal.II's solver: the matrix, and the multigrid cycle.
     template <typename Multiply>
     class CheckedOperator
     {
@@ -109,7 +109,7 @@ namespace Exemplar
       const bool      has_rows;
     };
 
-    /// Products by node as products by block of rows among all processes, without what is held.
+    /// Outer products renumbered from nodes to global block rows, without held components.
     OuterProducts
     by_rows(const OuterProducts &products, const FreeDofs &free_dofs, const RowNumbers &numbers)
     {
@@ -137,7 +137,7 @@ namespace Exemplar
       return result;
     }
 
-    /// The diagonal of a sum of products, by own row.
+    /// The diagonal of a sum of outer products, by owned row.
     std::vector<double>
     diagonal_of(const OuterProductRows<double> &products, const std::size_t n_rows)
     {
@@ -256,7 +256,7 @@ namespace Exemplar
   void
   MultigridOperator::precondition(const Vector &vector, Vector &image) const
   {
-    // of residuals that shrink by ten orders of magnitude single precision would lose the last
+    // scaled: residuals that shrink by ten orders of magnitude would underflow in single precision
     const unsigned int n  = rows.get_numbers().n_rows();
     const double scale    = free_dofs.exchange().max(max_entry(vector.begin(), vector.begin() + n));
     BlockVector  residual = cycle->matrix().zeros();

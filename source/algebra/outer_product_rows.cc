@@ -13,7 +13,7 @@ namespace Exemplar
   {
     using ByProcess = std::map<unsigned int, OuterProducts>;
 
-    /// To each process its products; returns what others have for this one.
+    /// Send products to each process; returns the received ones.
     ByProcess
     swap_products(const ByProcess &products, const Exchange &exchange)
     {
@@ -40,7 +40,7 @@ namespace Exemplar
                       n_own  = firsts[exchange.process() + 1] - first;
     const ByProcess received = share_products(made_here, firsts, exchange);
     append(made_here);
-    for (const auto &[process, products] : received) // in the order of the processes
+    for (const auto &[process, products] : received) // sums in the order of the processes
     {
       n_known_of[process] = products.size();
       append(products);
@@ -150,7 +150,7 @@ namespace Exemplar
 
   namespace
   {
-    /// Three numbers for each of some blocks.
+    /// A sparse vector: three numbers for each of some blocks.
     using Blocks = std::map<unsigned int, std::array<double, 3>>;
 
     void
@@ -181,7 +181,7 @@ namespace Exemplar
 
     const ByProcess               received = swap_products(back, exchange);
     std::map<std::size_t, Blocks> of_shared;
-    for (const auto &[process, products] : received) // in the order of the processes
+    for (const auto &[process, products] : received) // sums in the order of the processes
       for (std::size_t k = 0; k < products.size(); ++k)
         add_product_to(of_shared[known_to.at(process)[k]], products, k);
 

@@ -12,7 +12,7 @@ namespace Exemplar
     std::vector<float>  rounded(columns.size());
     for (std::size_t k = 0; k < n_columns; ++k)
     {
-      // of forces that shrink by ten orders of magnitude single precision would lose the last
+      // scaled: forces that shrink by ten orders of magnitude would underflow in single precision
       double *column = columns.data() + k * n;
       scales[k]      = max_entry(column, column + n);
       for (std::size_t i = 0; i < n && scales[k] != 0.; ++i)
@@ -25,7 +25,7 @@ namespace Exemplar
   }
 
   double
-  SinglePrecisionInverse::cost_in_iterations(std::size_t /*n_columns*/) const // they cost little
+  SinglePrecisionInverse::cost_in_iterations(std::size_t /*n_columns*/) const // columns cost little
   {
     // nanoseconds on the machine of doc/measured.md, of which only the ratio matters
     const FactorStructure &structure = factor->get_structure();

@@ -24,7 +24,7 @@ namespace Exemplar
       return std::make_shared<const FactorStructure>(std::move(result));
     }
 
-    /// r -= A x, of a matrix of which the lower triangle is given.
+    /// r -= A x, where A is given by its lower triangle.
     void
     subtract_product(const SymmetricPattern    &pattern,
                      const std::vector<double> &values,
@@ -97,9 +97,9 @@ namespace Exemplar
       factorize_roughly(const Vector &positions) override
       {
         factor.reset();
-        if (rough_factor.use_count() != 1) // the last one is kept
+        if (rough_factor.use_count() != 1) // none yet, or the last one is kept
           rough_factor = std::make_shared<MultifrontalFactor<float>>(structure, threads_at_work());
-        if (!rough_factor->factorize(matrix_values)) // in single precision, at least
+        if (!rough_factor->factorize(matrix_values)) // not definite in single precision, at least
           factorize(positions);
       }
 
@@ -155,15 +155,15 @@ namespace Exemplar
                    : in_order;
       }
 
-      /// Threads of a small factor would wait for each other longer than they work, by far where other
-      /// programs have the cores.
+      /// Number of threads; one for a small factor, whose threads would wait longer than they work,
+      /// by far where other programs use the cores.
       unsigned int
       threads_at_work() const
       {
         return structure->n_operations < 3e7 ? 1 : n_threads;
       }
 
-      /// By iterative refinement, of which each step gains the digits of single precision.
+      /// Solve by iterative refinement; each step gains the digits of single precision.
       void
       solve_roughly(std::vector<double> &columns)
       {
@@ -191,7 +191,7 @@ namespace Exemplar
       std::shared_ptr<const SymmetricPattern>    plain; ///< of the last pattern that had one
       std::shared_ptr<const FactorStructure>     plain_structure;
       std::optional<MultifrontalFactor<double>>  factor;
-      std::shared_ptr<MultifrontalFactor<float>> rough_factor; ///< instead of it
+      std::shared_ptr<MultifrontalFactor<float>> rough_factor; ///< null while `factor` is set
     };
   } // namespace
 

@@ -12,7 +12,7 @@
 #include <ml_utils.h>
 #include <mpi.h>
 
-// All that is Trilinos': Epetra's view of rows, and ML's levels.
+// All uses of Trilinos: Epetra's view of rows, and ML's levels.
 
 namespace Exemplar
 {
@@ -28,9 +28,9 @@ namespace Exemplar
       const Epetra_MpiComm   communicator(rows.get_numbers().exchange().communicator());
       const Epetra_Map       row_map(-1, n_rows, 0, communicator);
       const Epetra_Map column_map(-1, static_cast<int>(all.size()), all.data(), 0, communicator);
-      csr.column.reserve(1); // where there are no rows, too, Epetra wants an address
+      csr.column.reserve(1); // Epetra wants an address even without rows
       csr.value.reserve(1);
-      // the way for those whose matrix is complete: every other would copy the columns
+      // the constructor for a complete matrix: every other would copy the columns
       auto matrix = std::make_unique<Epetra_CrsMatrix>(View, row_map, column_map, 0, true);
       matrix->ExpertExtractIndexOffset().MakeViewOf({ View, csr.row_start.data(), n_rows + 1 });
       matrix->ExpertExtractIndices().MakeViewOf(
@@ -40,8 +40,7 @@ namespace Exemplar
       return matrix;
     }
 
-    /// Numbers among all processes of the columns of a matrix of ML, of which the own begin with
-    /// `first`.
+    /// Global numbers of the columns of an ML matrix, whose owned columns count from `first` on.
     std::vector<std::size_t>
     global_columns(ML_Operator *matrix, const std::size_t first)
     {
@@ -99,13 +98,13 @@ namespace Exemplar
       return levels;
     }
 
-    /// Smoothed aggregation by ML; what is computed with it is not ML's.
+    /// Levels by ML's smoothed aggregation; the cycle on them is ours.
     std::vector<MultigridLevel>
     make_by_ml(DistributedRows &rows, std::vector<double> modes)
     {
       const Exchange                         &exchange = rows.get_numbers().exchange();
       const std::unique_ptr<Epetra_CrsMatrix> matrix   = view(rows);
-      modes.reserve(1); // where there are no rows, too, ML wants an address
+      modes.reserve(1); // ML wants an address even without rows
       Teuchos::ParameterList parameters;
       ML_Epetra::SetDefaults("SA", parameters);
       parameters.set("ML output", 0);
@@ -116,7 +115,7 @@ namespace Exemplar
       parameters.set("aggregation: type", "Uncoupled");
       parameters.set("smoother: type", "do-nothing");
       parameters.set("coarse: type", "do-nothing");
-      // of its eigenvalue estimates, or else they would depend on the hierarchies before
+      // seeds ML's eigenvalue estimates, which would otherwise depend on earlier hierarchies
       ML_set_random_seed(1);
       const ML_Epetra::MultiLevelPreconditioner multigrid(*matrix, parameters);
       if (exchange.any(!multigrid.IsPreconditionerComputed()))

@@ -2,7 +2,7 @@
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/base/errors.h>
 
-// What stands for spd_operator_iterative.cc in a build without Trilinos.
+// Replaces spd_operator_iterative.cc in a build without Trilinos.
 
 namespace Exemplar
 {

@@ -36,11 +36,11 @@ namespace Exemplar
         for (unsigned int group = 0; group < sums.size(); ++group)
         {
           const auto begin = weights.begin() + first_of(group), end = begin + group_size;
-          if (lower.empty()) // any point on the plane
+          if (lower.empty()) // without bounds: any point with the right sum
             std::fill(begin, end, sums[group] / static_cast<double>(group_size));
           else
           {
-            // of the simplex the start, or a corner
+            // on the simplex: the start, or a corner
             const auto   first = c.begin() + first_of(group);
             const auto   best  = start.empty()
                                      ? std::max_element(first, first + group_size) - c.begin()
@@ -79,7 +79,7 @@ namespace Exemplar
       }
 
     private:
-      /// From the start, or from the kinks.
+      /// Initial guess and active set from the start, or from the kinks.
       void
       begin_among_kinks(const std::vector<double> &sums, const std::vector<double> &start)
       {
@@ -99,8 +99,8 @@ namespace Exemplar
         }
       }
 
-      /// Above (1) or below (-1) its kink, or stuck there (0). A weight at its bound and its kink
-      /// can only go up.
+      /// Position of a weight: above (1) or below (-1) its kink, or stuck there (0). A weight at
+      /// its bound and its kink can only increase.
       int
       side_of(const std::size_t i) const
       {
@@ -145,7 +145,7 @@ namespace Exemplar
         return farthest;
       }
 
-      /// With the prices, but for weights that are stuck.
+      /// The gradient, including the yields of weights off their kinks.
       std::vector<double>
       gradient() const
       {
@@ -161,8 +161,9 @@ namespace Exemplar
         return g;
       }
 
-      /// In the middle of what the conditions of weights allow that are all fixed, or of what
-      /// those leave that contradict each other.
+      /// The multiplier of a group whose weights are all fixed: the middle of the interval that
+      /// their conditions allow (its lower end, if it has no upper one) or, if they contradict each
+      /// other, of the gap.
       double
       multiplier_of_fixed(const std::vector<double> &g, const unsigned int group) const
       {
@@ -178,7 +179,7 @@ namespace Exemplar
         return std::isfinite(greatest) ? 0.5 * (least + greatest) : least;
       }
 
-      /// Less the mean derivative by the free weights.
+      /// The multiplier of a group: minus the mean derivative by its free weights.
       double
       multiplier(const std::vector<double> &g, const unsigned int group) const
       {
@@ -193,7 +194,7 @@ namespace Exemplar
         return n == 0 ? multiplier_of_fixed(g, group) : -(total / n);
       }
 
-      /// To the minimiser over the free weights, in coordinates e_i - e_r with the last
+      /// The step to the minimiser over the free weights, in coordinates e_i - e_r with the last
       /// free weight r of i's group.
       bool
       find_step(std::vector<double> &step) const
@@ -206,7 +207,8 @@ namespace Exemplar
         for (unsigned int group = 0; group < c.size() / group_size; ++group)
         {
           std::size_t r = first_of(group + 1) - 1;
-          while (r > first_of(group) && is_fixed(r)) // without kinks one is always free
+          while (r > first_of(group) && is_fixed(r)) // at least one is free without kinks
+                                                     // always free
             --r;
           for (std::size_t i = first_of(group); i < r; ++i)
             if (!is_fixed(i))
@@ -237,7 +239,7 @@ namespace Exemplar
         return true;
       }
 
-      /// As far as bounds and kinks allow; whether the whole step was.
+      /// Take the step as far as bounds and kinks allow; returns whether the whole step was.
       bool
       take(const std::vector<double> &step)
       {
@@ -255,7 +257,8 @@ namespace Exemplar
         if (meeting == c.size())
           return true;
         stop(meeting, step);
-        // all others that are there, too: one that is off its kink by rounding seems to be pulled
+        // stop all weights that arrive, too: one that is off its kink by rounding seems to be
+        // pulled
         for (unsigned int i = 0; i < c.size() && has_kinks(); ++i)
           if (const double *const end = end_of_way(i, step);
               end != nullptr && std::abs(weights[i] - *end) <= rounding)
@@ -263,7 +266,7 @@ namespace Exemplar
         return false;
       }
 
-      /// The bound or the kink that a free weight comes to in the direction of a step, or null.
+      /// The bound or kink that a free weight meets in the direction of a step, or null.
       const double *
       end_of_way(const unsigned int i, const std::vector<double> &step) const
       {
@@ -275,7 +278,7 @@ namespace Exemplar
         return step[i] < 0. ? &lower[i] : nullptr;
       }
 
-      /// Where it comes to.
+      /// Fix a weight at the bound or kink that it meets.
       void
       stop(const unsigned int i, const std::vector<double> &step)
       {
@@ -286,7 +289,7 @@ namespace Exemplar
           side[i] = side_of(i);
       }
 
-      /// Let go the weight whose multiplier is the most wrong; whether there was one.
+      /// Free the weight that violates its condition most; returns whether there was one.
       bool
       release(const std::vector<double> &g, const std::vector<double> &multipliers)
       {
@@ -326,7 +329,7 @@ namespace Exemplar
       const std::size_t                 group_size;
       std::vector<double>               weights;
       std::vector<bool>                 at_bound;
-      std::vector<int>                  side; ///< of its kink, see side_of(); 0 without kinks
+      std::vector<int>                  side; ///< side_of() each weight; 0 without kinks
     };
   } // namespace
 

@@ -30,7 +30,7 @@ namespace Exemplar
   public:
     Buffer(const OpenDirectory &directory, const std::filesystem::path &name) : bytes(1 << 16)
     {
-      if (directory.get_descriptor() >= 0) // else errno is that of opening it
+      if (directory.get_descriptor() >= 0) // otherwise errno is that of opening the directory
         descriptor = ::openat(directory.get_descriptor(), name.c_str(),
                               O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
       if (descriptor < 0)

@@ -76,7 +76,7 @@ namespace Exemplar
       {
         job_error = std::current_exception();
       }
-      job = nullptr; // frees its data while the lock is open
+      job = nullptr; // frees the job's data while unlocked
       lock.lock();
 
       busy = false;

@@ -20,14 +20,14 @@ namespace Exemplar
 {
   namespace
   {
-    /// In the forked process, where nothing but system calls is safe.
+    /// Replace the forked process by the program; only async-signal-safe calls are allowed here.
     [[noreturn]] void
     become(char *const argv[], const int out, const pid_t parent)
     {
-      for (const int signal : { SIGPIPE, SIGXFSZ }) // what we ignore would stay ignored
+      for (const int signal : { SIGPIPE, SIGXFSZ }) // ignored signals would stay ignored
         std::signal(signal, SIG_DFL);
       prctl(PR_SET_PDEATHSIG, SIGKILL);
-      if (getppid() != parent) // it has died before the line above
+      if (getppid() != parent) // the parent has died before the line above
         _exit(no_such_program);
       const int in = open("/dev/null", O_RDONLY);
       if (in < 0 || dup2(in, STDIN_FILENO) < 0 || dup2(out, STDOUT_FILENO) < 0
@@ -54,7 +54,7 @@ namespace Exemplar
       return child;
     }
 
-    /// A process that is killed if nobody has waited for its end.
+    /// A process that is killed by the destructor if it has not been waited for.
     class Child
     {
     public:
@@ -101,7 +101,7 @@ namespace Exemplar
         ::kill(id, SIGKILL);
       }
 
-      /// Once it has ended.
+      /// The status of waitpid(), once the process has ended.
       int
       get_status() const
       {

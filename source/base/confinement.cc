@@ -17,17 +17,17 @@
 #include <cstdint>
 #include <memory>
 
-// Two walls of the kernel, each of which is enough where the other is missing. seccomp knows what a
-// system call is asked to do, but not to which file; Landlock knows the files.
+// Two mechanisms of the kernel, each of which suffices where the other is missing. seccomp sees the
+// arguments of a system call, but not its file; Landlock sees files.
 
 namespace Exemplar
 {
   namespace
   {
-    /// Calls that are allowed whatever they are told.
+    /// System calls that are allowed with any arguments.
     constexpr const char *allowed_calls[] = { // memory
                                         "brk", "madvise", "mmap", "mprotect", "mremap", "munmap",
-                                        // files that are open, and what there is
+                                        // open files, and queries of existing ones
                                         "access", "close", "faccessat", "faccessat2", "fstat",
                                         "fstatfs", "getcwd", "getdents64", "lseek", "_llseek",
                                         "lstat", "newfstatat", "fstatat64", "poll", "ppoll",
@@ -37,7 +37,7 @@ namespace Exemplar
                                         "futex", "futex_time64", "get_robust_list", "getcpu",
                                         "membarrier", "rseq", "sched_getaffinity", "sched_yield",
                                         "set_robust_list",
-                                        // signals that it gets, and its end
+                                        // receiving signals, and exit
                                         "exit", "exit_group", "restart_syscall", "rt_sigaction",
                                         "rt_sigpending", "rt_sigprocmask", "rt_sigreturn",
                                         "rt_sigtimedwait", "sigaltstack",
@@ -50,7 +50,8 @@ namespace Exemplar
 
     using Filter = std::unique_ptr<void, void (*)(void *)>;
 
-    /// Allow a call whose arguments pass. What this machine does not have needs no rule.
+    /// Allow a call under conditions on its arguments. A call that this machine lacks needs no
+    /// rule.
     void
     allow(const Filter &filter, const char *call, const std::vector<scmp_arg_cmp> &arguments = {})
     {
@@ -66,14 +67,14 @@ namespace Exemplar
       return { index, SCMP_CMP_EQ, value, 0 };
     }
 
-    /// That none of the bits is set, or all of `value`.
+    /// Condition on an argument that its masked `bits` equal `value`.
     scmp_arg_cmp
     bits_are(const unsigned int index, const std::uint64_t bits, const std::uint64_t value)
     {
       return { index, SCMP_CMP_MASKED_EQ, bits, value };
     }
 
-    /// Calls that depend on what they are told.
+    /// Allow system calls that are restricted by their arguments.
     void
     allow_in_part(const Filter &filter)
     {
@@ -86,7 +87,7 @@ namespace Exemplar
       for (const int command : { F_GETFD, F_SETFD, F_GETFL })
         for (const char *call : { "fcntl", "fcntl64" })
           allow(filter, call, { argument_is(1, static_cast<std::uint64_t>(command)) });
-      allow(filter, "ioctl", { argument_is(1, TCGETS) }); // is it a terminal?
+      allow(filter, "ioctl", { argument_is(1, TCGETS) }); // isatty()
       allow(filter, "prlimit64", { argument_is(0, none), argument_is(2, none) });
       allow(filter, "clone", { bits_are(0, CLONE_THREAD, CLONE_THREAD) });
       allow(filter, "tgkill", { argument_is(0, self) }); // abort()
@@ -101,7 +102,7 @@ namespace Exemplar
       for (const char *call : allowed_calls)
         allow(filter, call);
       allow_in_part(filter);
-      // as on a kernel without it: libraries then start their threads by clone
+      // fails as on a kernel without it: libraries then start their threads by clone
       seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0);
       return seccomp_load(filter.get()) == 0;
     }
@@ -109,8 +110,8 @@ namespace Exemplar
     constexpr std::uint64_t read_file      = LANDLOCK_ACCESS_FS_READ_FILE;
     constexpr std::uint64_t read_directory = LANDLOCK_ACCESS_FS_READ_DIR;
 
-    /// All that this kernel's Landlock can forbid to do to files: 13 rights in its first version,
-    /// REFER in the second, TRUNCATE in the third.
+    /// All access rights to files that this version of Landlock can deny: 13 in its first version,
+    /// REFER from the second, TRUNCATE from the third.
     std::uint64_t
     landlock_rights(const long version)
     {
@@ -124,7 +125,7 @@ namespace Exemplar
       const Descriptor file(open(path.c_str(), O_PATH | O_CLOEXEC));
       struct stat      status;
       if (file.number < 0 || fstat(file.number, &status) != 0)
-        return; // what is not there cannot be read
+        return; // a missing file cannot be read
       const bool                     is_directory = S_ISDIR(status.st_mode);
       landlock_path_beneath_attr     rule{};
       rule.allowed_access = read_file | (is_directory ? read_directory : 0);
@@ -157,7 +158,7 @@ namespace Exemplar
   confine_this_process(const std::vector<std::filesystem::path> &readable)
   {
     std::vector<std::string> walls;
-    const rlimit             no_bytes{ 0, 0 }; // in files; pipes have no limit
+    const rlimit             no_bytes{ 0, 0 }; // limit of files; pipes have none
     setrlimit(RLIMIT_FSIZE, &no_bytes);
     if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
       return walls;

@@ -29,7 +29,7 @@ namespace Exemplar
       throw UserError(file.string() + ": cannot be read (" + reason + ").");
     }
 
-    /// Of a file, or of its first bytes if `n_bytes` are given.
+    /// SHA-256 of a file, or of its first bytes if `n_bytes` is given.
     std::string
     digest_of(const std::filesystem::path &file, const std::uintmax_t *n_bytes)
     {

@@ -21,8 +21,8 @@ namespace Exemplar
       return reinterpret_cast<Function *>(dlsym(RTLD_DEFAULT, name));
     }
 
-    /// How many levels of OpenMP's parallel regions may have several threads, here and now, and how many
-    /// could before. Libraries bring OpenMP, or there is none.
+    /// Set the number of levels of OpenMP's parallel regions that may have several threads, in this
+    /// thread; returns the number before. Libraries bring OpenMP, or there is none.
     int
     set_openmp_levels(const int n)
     {
@@ -126,14 +126,14 @@ namespace Exemplar
     if (std::getenv(variable) != nullptr || core == nullptr || !is_old_core(blas_info().core))
       return;
     setenv(variable, core, 1);
-    // interrupts wait until the program is there again and has said what becomes of them
+    // block interrupts until the restarted program has installed its handlers
     sigset_t interrupts, before;
     sigemptyset(&interrupts);
     for (const int signal : { SIGINT, SIGTERM, SIGXCPU, SIGHUP })
       sigaddset(&interrupts, signal);
     pthread_sigmask(SIG_BLOCK, &interrupts, &before);
     execv("/proc/self/exe", argv);
-    pthread_sigmask(SIG_SETMASK, &before, nullptr); // it has failed: we go on, only slower
+    pthread_sigmask(SIG_SETMASK, &before, nullptr); // the restart has failed: go on, only slower
   }
 
   double

@@ -17,7 +17,8 @@ namespace Exemplar
 
     constexpr double no_quota = std::numeric_limits<double>::infinity();
 
-    /// Of microseconds of processor time in each period, both as text; a group without a quota has "max" or -1.
+    /// Number of cores from a text of quota and period in microseconds; a group without a quota has
+    /// "max" or -1.
     double
     cores_of(const std::string &quota_and_period)
     {
@@ -36,8 +37,8 @@ namespace Exemplar
                       + read_text_file(group / "cpu.cfs_period_us").value_or(""));
     }
 
-    /// Of a group and those above it up to where groups are mounted. A container may see its own group there only,
-    /// whatever path it is told.
+    /// Least quota of a group and those above it up to the mount point. A container may see its own
+    /// group only there, whatever path it is given.
     double
     least_quota(const fs::path &mounted, const fs::path &path)
     {
@@ -48,7 +49,8 @@ namespace Exemplar
       return least;
     }
 
-    /// Whether these controllers, of a line of /proc/self/cgroup, share out the cores in version 1.
+    /// Whether these controllers, from a line of /proc/self/cgroup, include that of processor time
+    /// in version 1.
     bool
     has_processors(const std::string &controllers)
     {
@@ -62,7 +64,7 @@ namespace Exemplar
     unsigned int
     n_bound_cores()
     {
-      // the kernel refuses a set that is too small for the cores of the machine
+      // the kernel rejects a set that is too small for the cores of the machine
       for (std::size_t n = CPU_SETSIZE; n <= (1U << 20); n *= 2)
       {
         std::vector<cpu_set_t> set(n / CPU_SETSIZE);

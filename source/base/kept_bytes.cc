@@ -54,7 +54,7 @@ namespace Exemplar
       return std::strerror(errno);
     }
 
-    /// Makes the directory if need be. Returns why it is not to be used, or nothing.
+    /// Makes the directory if necessary. Returns why it cannot be used, or nothing.
     std::string
     why_unusable(const fs::path &directory)
     {
@@ -78,13 +78,14 @@ namespace Exemplar
       throw std::system_error(errno, std::generic_category(), path.string());
     }
 
-    /// A new file, removed in the end unless it has got its place. Throws std::system_error.
+    /// A new file, removed by the destructor unless renamed to its place. Throws std::system_error.
     class NewFile
     {
     public:
       explicit NewFile(const fs::path &directory)
       {
-        // again if one that tidied up came between; without a lock where there are no locks
+        // retry if another process has tidied up in between; without a lock where locks are not
+        // supported
         for (unsigned int attempt = 0; attempt < 3 && lock < 0; ++attempt)
         {
           remove();
@@ -128,7 +129,7 @@ namespace Exemplar
       }
 
     private:
-      /// No such file, if it has got its place.
+      /// Remove the temporary file; harmless after renaming.
       void
       remove()
       {
@@ -144,7 +145,7 @@ namespace Exemplar
       int         lock       = -1;
     };
 
-    /// Returns why it failed, or nothing.
+    /// Write bytes to their place in the cache. Returns why it failed, or nothing.
     std::string
     keep(const std::string &bytes, const fs::path &place)
     {

@@ -33,7 +33,7 @@ namespace Exemplar
   Launch
   find_launch()
   {
-    // the innermost launcher first: mpirun may itself use srun, and run in a job of Slurm
+    // innermost launcher first: mpirun may itself use srun, and run in a job of Slurm
     if (is_in_environment("OMPI_COMM_WORLD_SIZE")) // Open MPI's mpirun
       return { "mpirun", number_in_environment("OMPI_COMM_WORLD_SIZE", 0),
                number_in_environment("OMPI_COMM_WORLD_RANK", 0) };

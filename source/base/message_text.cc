@@ -13,7 +13,8 @@ namespace Exemplar
       return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80;
     }
 
-    /// Bytes of the character at a place (RFC 3629); 0 if there is none, or one that controls.
+    /// Number of bytes of the character at a position (RFC 3629); 0 if it is invalid or a control
+    /// character.
     std::size_t
     character_size(const std::string_view text, const std::size_t at)
     {
@@ -34,7 +35,7 @@ namespace Exemplar
       return controls || too_long || no_letter ? 0 : size;
     }
 
-    /// Where a character ends that begins before `at` and goes on there.
+    /// End of the character that contains position `at` after its first byte; otherwise `at`.
     std::size_t
     next_begin(const std::string_view text, std::size_t at)
     {
@@ -43,7 +44,7 @@ namespace Exemplar
       return at;
     }
 
-    /// Without the middle, if it is longer.
+    /// The text without its middle, if it is longer than n_first + n_last.
     std::string
     shortened(const std::string_view text, const std::size_t n_first, const std::size_t n_last)
     {

@@ -20,7 +20,7 @@ namespace Exemplar
       return text.find(part) != std::string::npos;
     }
 
-    /// Whether a blank follows an ending, as in "a.msh b.msh".
+    /// Whether a blank follows an extension, as in "a.msh b.msh".
     bool
     is_list_by_blanks(const std::string &name)
     {
@@ -28,7 +28,7 @@ namespace Exemplar
       return point != std::string::npos && holds(name.substr(point), " ");
     }
 
-    /// Where Linux in Windows has C:\\directory\\file.
+    /// Path of C:\\directory\\file in Windows' subsystem for Linux.
     std::string
     path_in_wsl(const std::string &path)
     {
@@ -39,7 +39,7 @@ namespace Exemplar
       return linux_path;
     }
 
-    /// The first directory on the way to a file that there is not; empty if all are there.
+    /// The first missing directory on the path of a file; empty if all exist.
     fs::path
     missing_directory(const fs::path &file)
     {
@@ -55,19 +55,19 @@ namespace Exemplar
     std::vector<std::string>
     names_beside(const fs::path &file)
     {
-      constexpr std::size_t    maximum = 2000; // who has more files in a directory waits no longer
+      constexpr std::size_t    maximum = 2000; // limits the time in directories with more files
       std::vector<std::string> names;
       std::error_code          ignored;
       const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
       for (fs::directory_iterator entry(directory, ignored), end;
            entry != end && names.size() < maximum; entry.increment(ignored))
         names.push_back(entry->path().filename().string());
-      std::sort(names.begin(), names.end()); // directories have no order of their own
+      std::sort(names.begin(), names.end()); // the order in a directory is unspecified
       return names;
     }
 
-    /// The name in a directory that is nearest to a name; empty if none is near. An ending that is
-    /// right does not make names nearer; one that is missing does not make them farther.
+    /// The name beside a file that is nearest to its name; empty if none is near. A correct
+    /// extension does not make names nearer; a missing one does not make them farther.
     std::string
     near_name(const fs::path &file, const fs::path &not_meant)
     {

@@ -15,16 +15,16 @@ namespace Exemplar
     void
     start_mpi()
     {
-      // alone, Open MPI would start a daemon, and look for ssh to do so
+      // a single process of Open MPI would start a daemon, and look for ssh to do so
       setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-      // hwloc, by which it looks at the machine, would say on stderr what it misses, such as /sys
+      // hwloc, which inspects the machine, would report on stderr what it misses, such as /sys
       setenv("HWLOC_HIDE_ERRORS", "2", 0);
-      // who waits for another process lets it have the core: cores may be shared, and the other be late
+      // yield the core while waiting for another process: cores may be shared
       setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
-      // threads with a problem each call MPI one after the other: TrilinosLock
+      // threads call MPI one after the other: TrilinosLock
       int provided = 0;
       MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED,
-                      &provided); // does not return if it fails
+                      &provided); // aborts if it fails
       mpi_was_started = true;
     }
   } // namespace

@@ -11,7 +11,7 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr std::size_t longest = 200; // what is longer was not mistyped
+    constexpr std::size_t longest = 200; // longer words are not compared
 
     bool
     is_same(const char a, const char b)

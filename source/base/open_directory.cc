@@ -15,7 +15,7 @@ namespace Exemplar
     open_directory(const std::filesystem::path &path)
     {
       const int readable = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-      // one in which files may be made, but not listed
+      // a directory in which files may be made, but not listed
       return readable < 0 && errno == EACCES
                  ? ::open(path.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC)
                  : readable;

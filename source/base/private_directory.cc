@@ -19,7 +19,7 @@ namespace Exemplar
   {
     const std::string prefix = "exemplar-private-";
 
-    /// Whether a descriptor is of what a path leads to.
+    /// Whether a descriptor is that of the file at a path.
     bool
     is_at(const int descriptor, const fs::path &path)
     {
@@ -66,7 +66,8 @@ namespace Exemplar
     const fs::path  found  = fs::temp_directory_path(none);
     const fs::path  parent = fs::absolute(none ? fs::path("/tmp") : found);
     remove_leftovers(parent, prefix);
-    // again if one that tidied up came between; without a lock where there are no locks
+    // retry if another process has tidied up in between; without a lock where locks are not
+    // supported
     for (unsigned int attempt = 0; attempt < 3 && lock < 0; ++attempt)
     {
       fs::remove(directory, none);

@@ -24,10 +24,10 @@ namespace Exemplar
 {
   namespace
   {
-    /// The last byte of an answer that is whole.
+    /// The last byte of a complete answer.
     constexpr char end_mark = '.';
 
-    /// The first byte of an answer: what follows it.
+    /// The first byte of an answer, the kind of its contents.
     enum Answer : char
     {
       value          = 'v',
@@ -98,15 +98,16 @@ namespace Exemplar
       int in = -1, out = -1;
     };
 
-    /// In the copy: let go of all that it has open but the way back, which becomes the descriptor
-    /// that is returned, and let libraries talk to `messages`, or to nobody if that is negative.
+    /// In the copy: close all files but the pipe to the parent, whose new descriptor is returned,
+    /// and redirect the standard output and error to `messages`, or discard them if that is
+    /// negative.
     int
     keep_only(const int out, const int messages)
     {
       constexpr int kept = STDERR_FILENO + 1;
       const int     null = open("/dev/null", O_RDWR);
       const int     talk = messages >= 0 ? messages : null;
-      __fpurge(stdout); // not ours to write
+      __fpurge(stdout); // discard the parent's unwritten output
       if (null < 0 || dup2(null, STDIN_FILENO) < 0 || dup2(talk, STDOUT_FILENO) < 0
           || dup2(talk, STDERR_FILENO) < 0 || (out != kept && dup3(out, kept, O_CLOEXEC) < 0))
         _exit(1);
@@ -114,19 +115,20 @@ namespace Exemplar
       return kept;
     }
 
-    /// In the copy: it ends with its parent, alone and without a core file.
+    /// In the copy: end with the parent, without its own handling of signals and without a core
+    /// file.
     void
     depend_on(const pid_t parent)
     {
       setpgid(0, 0);
       for (const int signal : { SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGQUIT })
-        std::signal(signal, SIG_IGN); // the parent takes them, and this ends with it
+        std::signal(signal, SIG_IGN); // the parent handles them, and this ends with it
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       const rlimit none{ 0, 0 };
       setrlimit(RLIMIT_CORE, &none);
       if (getppid() != parent)
         _exit(1);
-      std::atexit([] { _exit(1); }); // a library that calls exit() does not clean up for the parent
+      std::atexit([] { _exit(1); }); // a library that calls exit() must not clean up for the parent
     }
 
     [[noreturn]] void
@@ -143,7 +145,8 @@ namespace Exemplar
       _exit(0);
     }
 
-    /// A copy of the process, killed in the end with all that it has started.
+    /// A copy of the process, killed by the destructor together with all processes that it has
+    /// started.
     class Copy
     {
     public:
@@ -158,7 +161,7 @@ namespace Exemplar
         }
         if (id < 0)
           throw std::system_error(errno, std::generic_category(), "starting a process");
-        setpgid(id, id); // here and there, as nobody knows who is first
+        setpgid(id, id); // in parent and copy, whichever comes first
         answers.close_out();
         messages.close_out();
       }
@@ -177,7 +180,7 @@ namespace Exemplar
           ;
       }
 
-      /// All that it says until it ends. Throws if it goes beyond a limit.
+      /// Read the answer until the copy ends. Throws if it exceeds a limit.
       std::string
       read(const CopyTask &task, CopyMessages *said) const
       {
@@ -191,9 +194,9 @@ namespace Exemplar
             task.meanwhile();
           std::string ignored;
           if (ends[1].revents != 0 && !append(ends[1].fd, said != nullptr ? said->text : ignored))
-            ends[1].fd = -1; // it is not asked again
+            ends[1].fd = -1; // no longer polled
           const bool has_ended = ends[0].revents != 0 && !append(ends[0].fd, answer);
-          if (has_ended && ends[1].revents == 0) // what it has started may keep its messages open
+          if (has_ended && ends[1].revents == 0) // its children may keep its messages open
             return answer;
           if (said != nullptr && said->text.size() > said->max_bytes)
             throw SolverFailure(
@@ -206,7 +209,7 @@ namespace Exemplar
       }
 
     private:
-      /// What there is in a pipe; false at its end.
+      /// Append the bytes available in a pipe; false at its end.
       static bool
       append(const int in, std::string &text)
       {

@@ -17,15 +17,15 @@
 #include <cstring>
 #include <system_error>
 
-// A request is the number of its bytes and texts that end with NUL: the log and the arguments. The
-// answers are the process of the run, how it has ended, and, once that has been confirmed, nothing more:
-// until then the process is not waited for, so that nobody else has its number.
+// Protocol: a request is its size in bytes and texts that end with NUL: the log and the arguments.
+// The answers are the process id of the run, then its end. The process is waited for only after the
+// client has confirmed the latter, so that its id is not reused before.
 
 namespace Exemplar
 {
   namespace
   {
-    /// Whether all bytes have come or gone.
+    /// Transfer all bytes; returns whether that succeeded.
     template <typename Transfer, typename Byte>
     bool
     transfer_all(const Transfer &transfer, const int socket, Byte *bytes, std::size_t n)
@@ -66,8 +66,8 @@ namespace Exemplar
       return send_bytes(socket, reinterpret_cast<const char *>(&value), sizeof value);
     }
 
-    /// Signals that end programs go to all processes of a terminal; the server leaves it to the others to
-    /// end, and ends with them.
+    /// Ignores signals that end programs, which a terminal sends to all of its processes; the
+    /// server leaves the reaction to the others, and ends with them.
     class IgnoredSignals
     {
     public:
@@ -97,11 +97,11 @@ namespace Exemplar
     end_with_parent(const pid_t parent)
     {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
-      if (getppid() != parent) // it has died before the line above
+      if (getppid() != parent) // the parent has died before the line above
         _exit(no_such_program);
     }
 
-    /// In the copy that runs the program.
+    /// Run the program, in the copy made for it.
     [[noreturn]] void
     run_main(const ProgramServer::Main &main, std::vector<char> &texts)
     {
@@ -154,7 +154,7 @@ namespace Exemplar
       _exit(0);
     }
 
-    /// What waitpid() has told, as ChildEnd has it.
+    /// Set ChildEnd from the status of waitpid().
     void
     tell(const int status, ChildEnd &end)
     {
@@ -230,7 +230,7 @@ namespace Exemplar
     }
     int status = 0;
     if (!take(socket, status) || !give(socket, '.'))
-      status = end_server(); // who has killed it has killed the run
+      status = end_server(); // a killed server counts as a killed run
     end.seconds = time.seconds();
     if (is_interrupted)
       throw Interrupted("Interrupted.");

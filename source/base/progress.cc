@@ -14,7 +14,7 @@ namespace Exemplar
     // signs of life at least every 5 s
     constexpr milliseconds line_interval(4000);
 
-    // a bar that changes faster cannot be read, and steps that take less need no other sign
+    // a bar that changes faster cannot be read, and shorter steps need no other sign of life
     constexpr milliseconds bar_interval(100), sign_interval(500), long_step(1000);
 
     double
@@ -70,7 +70,7 @@ namespace Exemplar
     }
     catch (const std::system_error &)
     {
-      ended = true; // there are no threads left, and the run matters more than its display
+      ended = true; // no thread available: the run matters more than its display
     }
   }
 
@@ -107,7 +107,7 @@ namespace Exemplar
         show(done + 1, duration_text(seconds_between(step_begin, now)), under_way);
       }
       else if (!ended && done == n_steps)
-        changed.wait(lock); // for the end
+        changed.wait(lock); // wait for the end
     }
   }
 
@@ -141,7 +141,7 @@ namespace Exemplar
     }
     text << unit << " " << step << " of " << n_steps << ", " << duration
          << (note.empty() ? "" : ", ") << note;
-    if (is_terminal) // one line, whatever stood there before; "\033[K" clears the rest of it
+    if (is_terminal) // overwrite the line; "\033[K" clears the rest of it
       out << '\r' << text.str().substr(0, 79) << "\033[K" << std::flush;
     else
       out << text.str() << std::endl;

@@ -15,7 +15,7 @@ namespace Exemplar
       return "\n$SHA256\n" + digest + "\n$EndSHA256\n";
     }
 
-    /// Bytes of every seal.
+    /// Size of every seal in bytes.
     const std::uintmax_t seal_size = seal_of(std::string(64, '0')).size();
   } // namespace
 

@@ -16,10 +16,10 @@ namespace Exemplar
   {
     for (const int descriptor : { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO })
       if (::fcntl(descriptor, F_GETFD)
-          < 0) // opening takes the least free number, which is this one
+          < 0) // opening takes the least free descriptor, which is this one
         if (::open("/dev/null", descriptor == STDIN_FILENO ? O_RDONLY : O_WRONLY) < 0)
           ::open("/",
-                 O_RDONLY | O_DIRECTORY); // where there is no /dev; cannot be written to, either
+                 O_RDONLY | O_DIRECTORY); // fallback without /dev; cannot be written to, either
     std::signal(SIGPIPE, SIG_IGN);
   }
 

@@ -52,7 +52,7 @@ namespace Exemplar
     std::vector<char> block(1 << 16);
     while (in.read(block.data(), block.size()) || in.gcount() > 0)
       bytes.append(block.data(), in.gcount());
-    if (in.bad()) // else a part would be taken for the whole
+    if (in.bad()) // otherwise a part would be taken for the whole
       return fail("reading it fails");
     return bytes;
   }

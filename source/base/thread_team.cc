@@ -20,8 +20,8 @@ namespace Exemplar
   {
     using Clock = std::chrono::steady_clock;
 
-    /// A thread that waits looks for so long, as to sleep and to be woken takes about as long, and then
-    /// sleeps: whoever needs its core has it.
+    /// Time for which a waiting thread spins, about that of falling asleep and waking up; then it
+    /// sleeps and leaves its core to others.
     constexpr std::chrono::microseconds patience(50);
 
     template <typename Condition>
@@ -36,7 +36,8 @@ namespace Exemplar
       }
     }
 
-    /// Tasks that several threads do. What is not atomic belongs to whoever has the lock of the team.
+    /// Tasks shared by several threads. Members that are not atomic are guarded by the lock of the
+    /// team.
     class SharedTasks
     {
     public:
@@ -45,7 +46,7 @@ namespace Exemplar
       {
       }
 
-      /// Do tasks until all have been begun.
+      /// Run tasks until all have been begun.
       void
       work(const int thread)
       {
@@ -66,7 +67,7 @@ namespace Exemplar
         return n_joined < max_helpers && begun < n;
       }
 
-      /// Once nobody is at work.
+      /// Rethrow the first failure, once no thread is at work.
       void
       throw_failure() const
       {
@@ -77,7 +78,7 @@ namespace Exemplar
       const int        n;
       const int        max_helpers;
       int              n_joined = 0;   ///< helpers so far
-      std::atomic<int> n_helpers{ 0 }; ///< at work
+      std::atomic<int> n_helpers{ 0 }; ///< helpers at work
 
     private:
       void
@@ -92,11 +93,11 @@ namespace Exemplar
       const std::function<void(int, int)> &task;
       std::atomic<int>                     begun{ 0 };
       std::mutex                           failure_mutex;
-      int                                  failed = n; ///< the first
+      int                                  failed = n; ///< first task that failed
       std::exception_ptr                   failure;
     };
 
-    /// The threads that help. They are as many as a call has ever asked for, and never end.
+    /// The pool of helping threads: as many as a call has ever asked for. They never end.
     class ThreadTeam
     {
     public:
@@ -124,7 +125,7 @@ namespace Exemplar
           has_offer.notify_one();
       }
 
-      /// Nobody joins any more, and who has joined is waited for.
+      /// Stop helpers from joining, and wait for those that have joined.
       void
       withdraw(SharedTasks &tasks)
       {
@@ -139,7 +140,7 @@ namespace Exemplar
         has_left.wait(lock, all_have_left);
       }
 
-      /// Whether there is another thread. Signals are for the threads of others.
+      /// Start another helper; returns whether there is one. Signals are left to other threads.
       bool
       start_thread()
       {
@@ -151,7 +152,7 @@ namespace Exemplar
         {
           std::thread([this] { help(); }).detach();
         }
-        catch (const std::system_error &) // there may be no more: those that there are do the tasks
+        catch (const std::system_error &) // no further thread: the others do the tasks
         {
           has_started = false;
         }
@@ -168,13 +169,13 @@ namespace Exemplar
           tasks->work(thread);
           {
             const std::lock_guard<std::mutex> lock(mutex);
-            --tasks->n_helpers; // from here on they may be gone
+            --tasks->n_helpers; // from here on the tasks may be destroyed
           }
           has_left.notify_all();
         }
       }
 
-      /// The tasks that are to be done next, and the number of this thread among those who do them.
+      /// The next tasks to be done, and this thread's number in them.
       std::pair<SharedTasks *, int>
       join()
       {
@@ -197,12 +198,12 @@ namespace Exemplar
       std::mutex                 mutex;
       std::condition_variable    has_offer, has_left;
       std::vector<SharedTasks *> offered;
-      std::atomic<unsigned int>  n_offers{ 0 }; ///< so far
+      std::atomic<unsigned int>  n_offers{ 0 }; ///< offers so far
       int                        n_threads = 0;
     };
 
-    /// Nothing destroys it, as a process may end while its threads wait. A copy of the process (fork)
-    /// has none of the threads and begins with another team.
+    /// The team is never destroyed, as a process may end while its threads wait. A copy of the
+    /// process (fork) has none of the threads and begins with another team.
     ThreadTeam *team = new ThreadTeam;
 
     const int replaced_at_fork = pthread_atfork(nullptr, nullptr, [] { team = new ThreadTeam; });

@@ -13,12 +13,12 @@ namespace Exemplar
   {
     constexpr double clock_per_processor_time = 30.;
 
-    /// [s], of a process and of its children that it has waited for.
+    /// Processor time [s] of a process and of its children that it has waited for.
     double
     processor_time_of(const pid_t process)
     {
-      // the name, in parentheses, may hold any character; behind it stand the state and the times as the
-      // 12th to 15th
+      // the name, in parentheses, may hold any character; behind it are the state and, as 12th to
+      // 15th, the times
       const std::string  stat = read_text_file(fmt::format("/proc/{}/stat", process)).value_or("");
       std::istringstream fields(stat.substr(stat.rfind(')') + 1));
       std::string        other;

@@ -18,7 +18,7 @@ namespace Exemplar
         volumes(batched_size(n_points, 1)), rotations(batched_size(n_points, 9))
   {
     std::vector<unsigned int> order(n_nodes);
-    // slots behind the last point repeat it, without a volume
+    // slots behind the last point repeat it with volume 0
     for (std::size_t slot = 0; slot < volumes.size(); ++slot)
     {
       const auto point      = static_cast<unsigned int>(std::min(slot, n_points - 1));

@@ -6,14 +6,14 @@ namespace Exemplar
 {
   namespace
   {
-    /// 0 where eta is 0.
+    /// (1 - eta) / eta; 0 where eta is 0.
     double
     blended_share(const double eta)
     {
       return eta > 0. ? (1. - eta) / eta : 0.;
     }
 
-    /// Of each patch, with the mean of eta over its volume.
+    /// blended_share() of each patch, by the mean of eta over its volume.
     std::vector<double>
     blended_shares(const double    importance,
                    const FESpace  &fe_space,
@@ -115,7 +115,7 @@ namespace Exemplar
                               const Patches      &patches)
   {
     blended.reinit(gram.m(), gram.m());
-    std::vector<double> of_patches(patches.size(), 0.); // lambda times volume
+    std::vector<double> of_patches(patches.size(), 0.); // lambda V of each patch
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
       const unsigned int cell = fe_space.cell_of(point);

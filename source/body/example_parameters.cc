@@ -179,7 +179,7 @@ namespace Exemplar
 
   namespace
   {
-    /// Of a constant between bounds, which it must not reach; none if `text` is empty.
+    /// The value of a constant strictly between bounds; none if `text` is empty.
     std::optional<double>
     constant_in(const std::string &key,
                 const std::string &text,

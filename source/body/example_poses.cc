@@ -20,7 +20,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// p of Eq. (16) of a cell in an example: of its stretch I + E.
+    /// p of Eq. (16) of a cell in an example, for its stretch I + E.
     double
     guard_product(const Matrix3<double> &E)
     {
@@ -43,7 +43,7 @@ namespace Exemplar
         return RegionShares(painted, n_points, mesh.exchange());
       if (!parameters.weights_per_region)
         return {};
-      // beyond the body's size all regions have the same share everywhere
+      // beyond the body's size the share of a region is uniform
       const double length = std::min(parameters.region_blend_length, 1e3 * mesh.diameter());
       return RegionShares(mesh, length, n_points);
     }
@@ -51,7 +51,7 @@ namespace Exemplar
 
   namespace
   {
-    /// What of a strain examples act on, Eq. (31).
+    /// The part of a strain that examples act on, Eq. (31).
     Matrix3<double>
     acting_part(const ActsOn           acts_on,
                 const Material        &material,
@@ -94,7 +94,7 @@ namespace Exemplar
 
   namespace
   {
-    /// What a pose function makes of the nodes.
+    /// Images of the nodes under a pose function.
     std::vector<dealii::Point<3>>
     images(const std::string &function, const FESpace &fe_space)
     {
@@ -105,7 +105,7 @@ namespace Exemplar
         for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
           images.emplace_back(expression.vector(fe_space.rest_position(node), 0.));
       };
-      do_in_agreement(fe_space.exchange(), find); // it may fail at nodes of one process alone
+      do_in_agreement(fe_space.exchange(), find); // it may throw on one process alone
       return images;
     }
   } // namespace
@@ -126,7 +126,7 @@ namespace Exemplar
       return pose;
     }
 
-    /// The rest pose, those of files among `poses`, those of functions.
+    /// All example poses: the rest pose, files among `poses`, and functions.
     std::vector<ExamplePose>
     make_poses(const ExampleParameters &parameters,
                const Mesh              &mesh,
@@ -147,7 +147,7 @@ namespace Exemplar
       return examples;
     }
 
-    /// What looks doubtful about the poses but the rest pose.
+    /// Warnings about the poses, apart from the rest pose.
     std::vector<std::string>
     review(const ExampleParameters        &parameters,
            const Mesh                     &mesh,
@@ -219,7 +219,7 @@ namespace Exemplar
   ExamplePoses::set_material(const Material &cell_material, const Patches &patches)
   {
     if (rule.acts_on != ActsOn::all
-        || cell_material.has_elasticity_of_examples()) // their strains depend on it
+        || cell_material.has_elasticity_of_examples()) // strains depend on the material
       set_parameters(example_constants.importance, cell_material, patches);
     else if (!poses.empty())
       gram.compute(*this, fe_space, laws, cell_material, patches);
@@ -279,7 +279,7 @@ namespace Exemplar
   ExamplePoses::volume_fractions() const
   {
     if (regions.n_regions() == 1)
-      return { 1. }; // without the sum's rounding
+      return { 1. }; // exactly, without rounding of the sum
     const double        total = fe_space.total_volume();
     std::vector<double> fraction(regions.n_regions(), 0.);
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)

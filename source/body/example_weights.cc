@@ -112,7 +112,8 @@ namespace Exemplar
     form.coupled.clear();
     form.N.reinit(poses.get_regions().n_regions(), n);
     const double sigma = parameters.ridge(unit_energy);
-    // a region has its part of the ridge, so that equal weights in all regions cost what global ones do
+    // the ridge is scaled by volume fractions, so that equal weights in all regions cost as much as
+    // global ones
     const std::vector<double> fraction = poses.volume_fractions();
     for (unsigned int weight = 0; weight < n; ++weight)
       penalty(weight, weight) = sigma * fraction[weight / poses.size()];
@@ -221,7 +222,7 @@ namespace Exemplar
     WeightLimits limits;
     for (std::size_t i = 0; bounded && i < weights.size(); ++i)
       limits.lower.push_back((held.empty() ? 0. : held[i]) - weights[i]);
-    if (held.empty()) // else kinks may lie below the bounds
+    if (held.empty()) // with held weights kinks may lie below the bounds
       memory.add_to(limits, weights);
     return limits;
   }

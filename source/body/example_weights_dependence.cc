@@ -9,13 +9,13 @@
 #include <cmath>
 #include <sstream>
 
-// Examples that are combinations of others: their weights are not determined.
+// Affinely dependent examples, whose weights are not unique.
 
 namespace Exemplar
 {
   namespace
   {
-    /// In words that follow "which".
+    /// Conditioning of the Gram matrix, as a clause after "which".
     std::string
     condition_of(const dealii::FullMatrix<double> &gram, const double min_pivot)
     {
@@ -34,7 +34,7 @@ namespace Exemplar
     const dealii::FullMatrix<double> differences
         = form_of_differences(poses.get_gram().matrix(), k);
     const auto second = [k](const unsigned int d) { return d + d / (k - 1) + 1; };
-    // strains of 1e-10 are the rounding of a rest pose
+    // strains of 1e-10 are rounding errors of a rest pose
     const double   of_rounding = std::pow(1e-10 * poses.constants().importance, 2) * unit_energy;
     const MinPivot least       = min_pivot(differences, of_rounding);
     if (differences.m() == 0 || least.ratio > 1e-8)

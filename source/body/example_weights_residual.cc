@@ -5,18 +5,18 @@
 #include <algorithm>
 #include <limits>
 
-// The conditions of Karush, Kuhn and Tucker of the weights.
+// The KKT conditions of the weights.
 
 namespace Exemplar
 {
   namespace
   {
-    /// The condition of a weight: its slopes and the multiplier have zero between them, or above the
-    /// left one alone where it cannot fall.
+    /// Optimality condition of a weight: zero is between its one-sided derivatives plus the
+    /// multiplier or, at the bound, not above the right one.
     struct Condition
     {
       WeightMemory::Slopes slopes;
-      bool                 is_off; ///< its bound
+      bool                 is_off; ///< whether the weight is off its bound
 
       bool
       is_free() const
@@ -34,8 +34,8 @@ namespace Exemplar
       }
     };
 
-    /// The derivatives by a region's free weights equal -multiplier. Where there are none it is in the
-    /// middle of what the others allow.
+    /// The multiplier of a region: minus the mean derivative by its free weights; without free
+    /// ones, the middle of the interval that the other weights' conditions allow.
     double
     multiplier_of(const std::vector<Condition> &region)
     {
@@ -62,7 +62,7 @@ namespace Exemplar
   {
     const unsigned int k = n_per_region();
     WeightResidual     result;
-    if (!held.empty()) // whatever the derivatives are
+    if (!held.empty()) // held weights need no optimality
     {
       result.multipliers.assign(form.N.m(), 0.);
       return result;

@@ -26,7 +26,7 @@ namespace Exemplar
       return in_order_of_elements.at(static_cast<std::size_t>(element));
     }
 
-    /// The first of the nodes are vertices.
+    /// Distribute an amount to nodes, of which the vertices come first.
     void
     share_among(const dealii::ArrayView<const unsigned int> &nodes,
                 const unsigned int                           n_vertices,

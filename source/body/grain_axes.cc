@@ -54,7 +54,8 @@ namespace Exemplar
       return directions;
     }
 
-    /// Of what one subsection says, before they are normalised, in all cells.
+    /// Directions in all cells as given by formulas, selections or maps, before they are
+    /// normalised.
     class Directions
     {
     public:
@@ -70,7 +71,7 @@ namespace Exemplar
         }
       }
 
-      /// Each text is evaluated once.
+      /// Fibre directions of a subsection; each text is evaluated once.
       const std::vector<Direction> &
       along(const ElasticConstants &constants, const std::string &section)
       {
@@ -103,7 +104,7 @@ namespace Exemplar
       std::map<std::string, std::vector<Direction>> of_texts;
     };
 
-    /// What to do about directions that are 0.
+    /// Advice in the message about directions that are 0.
     std::string
     remedy_of_no_direction(const std::string &text)
     {
@@ -149,7 +150,7 @@ namespace Exemplar
       return b / b.norm();
     }
 
-    /// The axes of the cells that take what one subsection says.
+    /// Set the axes of the cells to which a subsection applies.
     void
     set_axes(const ElasticConstants          &constants,
              const std::string               &section,
@@ -160,7 +161,7 @@ namespace Exemplar
     {
       if (!constants.has_grain() || cells.empty())
         return;
-      constexpr double          rounding  = 1e-9; // of a gradient, relative to the others
+      constexpr double          rounding  = 1e-9; // relative rounding of a gradient
       const auto               &along     = directions.along(constants, section);
       const bool                has_cross = !constants.cross_direction.empty();
       double                    maximum   = 0.;
@@ -236,7 +237,7 @@ namespace Exemplar
   {
     if (!parameters.law_of_grain())
       return {};
-    std::map<unsigned int, std::vector<unsigned int>> cells; // of each material id
+    std::map<unsigned int, std::vector<unsigned int>> cells; // cells of each material id
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
       cells[mesh.get_material_ids()[cell]].push_back(cell);
     Directions             directions(mesh, named, painted);

@@ -44,7 +44,7 @@ namespace Exemplar
       return chosen;
     }
 
-    /// The displacements that a program's function has given for `n_points`.
+    /// Check the displacements that a program's function has given for `n_points`.
     std::vector<dealii::Tensor<1, 3>>
     checked(std::vector<dealii::Tensor<1, 3>> displacements,
             const std::size_t                 n_points,

@@ -18,7 +18,7 @@ namespace Exemplar
     { return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin(); };
     const auto n_vertices = static_cast<std::size_t>(position(fe_space.numbering().n_vertices()));
 
-    std::vector<std::array<std::size_t, 2>> ends; // of the edges, among the nodes
+    std::vector<std::array<std::size_t, 2>> ends; // ends of the edges, as indices into `nodes`
     for (std::size_t i = n_vertices; i < nodes.size(); ++i)
     {
       const auto &[a, b] = fe_space.numbering().ends(nodes[i]);

@@ -15,7 +15,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// Of a handle that overlaps with others.
+    /// Advice for a handle that selects the whole body.
     std::string
     remedy_of_all(const std::string &handle)
     {
@@ -36,21 +36,21 @@ namespace Exemplar
 
   namespace
   {
-    /// A node that two handles hold and must not.
+    /// A node that two handles must not both hold.
     struct Conflict
     {
-      unsigned int first, second; ///< handles
+      unsigned int first, second; ///< indices of the two handles
       unsigned int node;
     };
 
-    /// The same as all processes know it.
+    /// A conflict in the form that is the same on all processes.
     struct AgreedConflict
     {
       const Handle &first, &second;
-      std::string   node; ///< in words
+      std::string   node; ///< name_of_node()
     };
 
-    /// The index of a node of this process among all of the body.
+    /// Index of a local node in the whole body.
     std::size_t
     index_in_whole(const unsigned int node, const FESpace &fe_space)
     {
@@ -60,9 +60,9 @@ namespace Exemplar
       return static_cast<std::size_t>(exchange.part(std::move(indices), 1)[node]);
     }
 
-    /// Of what processes find first in the order of second handles and their nodes, that which one
-    /// process would find first, so that the message is the same for any number of them. All
-    /// processes must call this.
+    /// Agree on one conflict of all processes: the first in the order of second handles and their
+    /// nodes, which a single process would find, so that the message does not depend on the number
+    /// of processes. Collective.
     std::optional<AgreedConflict>
     agree(const std::optional<Conflict> &own,
           const std::vector<Handle>     &handles,
@@ -118,7 +118,7 @@ namespace Exemplar
       return {};
     }
 
-    /// Whether a handle of the two has caught what it holds by this time.
+    /// The handle of the two that has caught the shared node by this time, or null.
     const Handle *
     find_catching(const Handle &first,
                   const Handle &second,

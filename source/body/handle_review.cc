@@ -14,18 +14,18 @@ namespace Exemplar
     using Points = std::vector<dealii::Point<3>>;
     using Arms   = std::vector<dealii::Tensor<1, 3>>;
 
-    /// A turn of points of which each moves on a straight line, so that they are crushed
+    /// A rotation of points, each of which moves on a straight line, so that they are crushed
     /// towards the axis on the way.
     struct StraightTurn
     {
       double angle;    ///< [rad], 0 if there is no such turn
-      double min_size; ///< relative to that at the nearer end of the way
+      double min_size; ///< relative to the smaller one at the ends
     };
 
     const double degree    = std::acos(-1.) / 180.;
     const double min_angle = 20. * degree;
 
-    /// From the centroid to the points.
+    /// Vectors from the centroid to the points.
     Arms
     arms(const Points &points)
     {
@@ -55,7 +55,7 @@ namespace Exemplar
       return value;
     }
 
-    /// The parts at a right angle to the axis.
+    /// Components perpendicular to the axis.
     Arms
     across(const dealii::Tensor<1, 3> &axis, Arms all)
     {
@@ -64,8 +64,8 @@ namespace Exemplar
       return all;
     }
 
-    /// Whether all points are on the way from `start` by `way` times one and the same
-    /// number, in all of `places`, and really between the ends once.
+    /// Whether all `places` are start + s way with one number s for all points, where
+    /// 0.05 < s < 0.95 at least once.
     bool
     lies_on_straight_lines(const Arms                &start,
                            const Arms                &way,
@@ -85,7 +85,7 @@ namespace Exemplar
       return is_between;
     }
 
-    /// Least size on the straight way, relative to the smaller one of its ends'.
+    /// Least size on the straight way, relative to the smaller of the sizes at its ends.
     double
     min_relative_size(const Arms &start, const Arms &way)
     {
@@ -143,8 +143,8 @@ namespace Exemplar
                                                                  : StraightTurn{ turn.angle, size };
     }
 
-    /// The angle [rad] by which `motion` turns points of the handle as a rigid body from one time to
-    /// another, to and fro summed up.
+    /// The angle [rad] by which `motion` turns points of the handle as a rigid body from one time
+    /// to another, to and fro summed up.
     double
     turn_between(const Handle &handle, const Points &rest, const double begin, const double end)
     {
@@ -163,8 +163,8 @@ namespace Exemplar
       return angle;
     }
 
-    /// Where all of its nodes are at rest. All processes look at the whole handle, so that they say the same, or fail
-    /// alike.
+    /// Rest positions of the nodes of the whole handle. All processes look at all of them, so that
+    /// they report or fail alike.
     Points
     rest_of_whole(const Handle &handle, const FESpace &fe_space)
     {
@@ -176,7 +176,7 @@ namespace Exemplar
     std::string
     describe_large_turn(const Handle &handle, const FESpace &fe_space, const TimeAxis &axis)
     {
-      constexpr std::size_t max_nodes = 8, max_steps = 20; // a millisecond
+      constexpr std::size_t max_nodes = 8, max_steps = 20; // takes a millisecond
       if (handle.path || handle.function || handle.components.size() < 3)
         return {};
       Points            rest;
@@ -227,15 +227,15 @@ namespace Exemplar
     std::string
     describe_straight_turn(const Handle &handle, const FESpace &fe_space, const TimeAxis &axis)
     {
-      // a fit to fewer components would say nothing, and few points cannot be crushed; a program's function knows
-      // the nodes of its process alone
+      // a rigid motion cannot be fitted to fewer components, and few points cannot be crushed; a
+      // program's function knows the nodes of its process alone
       if (handle.path || handle.components.size() < 3
           || (handle.function && fe_space.exchange().n_processes() > 1))
         return {};
       const Points rest = rest_of_whole(handle, fe_space);
       if (rest.size() < 3)
         return {};
-      // long runs of large handles: not in all steps, to stay below a tenth of a second
+      // in long runs of large handles only some steps, to stay below a tenth of a second
       const std::size_t   max_samples = std::max<std::size_t>(20, 100000 / rest.size());
       const std::size_t   n_samples   = std::min<std::size_t>(axis.n_steps(), max_samples);
       std::vector<Points> places;

@@ -39,7 +39,7 @@ namespace Exemplar
   Handles::displacements(const double time) const
   {
     Displacements all;
-    do_in_agreement(fe_space.exchange(), // a process may have no node of a handle that fails
+    do_in_agreement(fe_space.exchange(), // a motion may fail on one process alone
                     [&]
                     {
                       for (const Handle &handle : handles)
@@ -151,7 +151,7 @@ namespace Exemplar
         for (const unsigned int c : handles[h].components)
           positions[3 * node + c] = fe_space.rest_positions()[3 * node + c] + all[h][point][c];
       }
-    // what is no formula could not be checked at all times before
+    // motions by functions could not be checked at all times before
     if (std::any_of(handles.begin(), handles.end(), [](const Handle &h) { return h.function; }))
       check_agreement(handles, shared_nodes(handles), all, time, mesh, fe_space);
   }

@@ -8,8 +8,9 @@
 #include <cmath>
 #include <set>
 
-// Handles with a time: they let go and catch between steps. Which hold is a function of the time at which a
-// step begins, and where caught nodes are of the positions there, so that nothing has to be remembered.
+// Handles with a From or Until, which release and catch nodes between steps. Which handles hold is
+// a function of the time at which a step begins, and the offsets of caught nodes are one of the
+// positions there, so that no history is needed.
 
 namespace Exemplar
 {
@@ -81,7 +82,7 @@ namespace Exemplar
   void
   Handles::check_overlaps(const TimeAxis &axis)
   {
-    // what handles share may lie in one process, but the checks and displacements() are of all
+    // shared nodes may lie in one process, but the checks and displacements() are collective
     std::set<unsigned int> shared;
     bool                   any_shares  = false;
     const auto             find_shared = [&]

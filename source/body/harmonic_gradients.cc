@@ -12,7 +12,7 @@ namespace Exemplar
   {
     using Gradient = dealii::Tensor<1, 3>;
 
-    /// Of the linear shape functions of a cell, and its volume.
+    /// Gradients of the linear shape functions of a cell, and its volume.
     struct ShapeGradients
     {
       std::array<Gradient, 4> g;
@@ -38,7 +38,7 @@ namespace Exemplar
 
     constexpr int fixed = -1;
 
-    /// The number of each node among the unknowns: those that hang on a fixed node by cells.
+    /// Index of each node among the unknowns: the free nodes connected to a fixed one by cells.
     std::vector<int>
     number_unknowns(const Mesh &mesh, const std::vector<bool> &is_fixed)
     {
@@ -92,7 +92,7 @@ namespace Exemplar
       return pattern;
     }
 
-    /// Let the values of the unknowns be those of the harmonic function with the others as they are.
+    /// Solve Laplace's equation for the values of the unknowns, with the other values fixed.
     void
     solve_laplace(const Mesh &mesh, const std::vector<int> &number, std::vector<double> &values)
     {

@@ -18,8 +18,8 @@ namespace Exemplar
       return consistent ? ShareRule::consistent : ShareRule::lumped;
     }
 
-    /// The sums of the rows of a mass matrix [kg]: the weights of gravity for which a free body falls
-    /// without strain. Those of the consistent one are the integrals of rho N_a.
+    /// Row sums of a mass matrix [kg]: nodal masses on which gravity makes a free body fall without
+    /// strain. Those of the consistent matrix are the integrals of rho N_a.
     std::vector<double>
     nodal_masses(const FESpace &fe_space, const Material &material, const ShareRule mass)
     {
@@ -30,8 +30,8 @@ namespace Exemplar
       return masses;
     }
 
-    /// A mass [kg] at each of the chosen nodes that is never negative in sum: the integral of rho
-    /// N_a over the cells of which all nodes are chosen and, over others, what the lumped mass has.
+    /// A mass [kg] at each of the chosen nodes with a non-negative sum: cells whose nodes are all
+    /// chosen contribute the integral of rho N_a, other cells their lumped mass.
     std::vector<double>
     chosen_masses(const FESpace                   &fe_space,
                   const Material                  &material,
@@ -62,9 +62,9 @@ namespace Exemplar
       return normal.norm() / 2.;
     }
 
-    /// Areas at the nodes, such that a constant traction on the faces gives each node its share.
-    /// Of quadratic faces with chosen vertices alone, all is at the middles of the edges; of others
-    /// vertices have what a lumped matrix gives them.
+    /// Nodal areas [m^2]: the distribution of a constant traction on the faces to nodes. A
+    /// quadratic face whose vertices are all chosen has consistent areas, all at the middles of its
+    /// edges; other faces have lumped ones.
     std::vector<double>
     nodal_areas(const Mesh                      &mesh,
                 const FESpace                   &fe_space,
@@ -88,7 +88,7 @@ namespace Exemplar
 
   namespace
   {
-    /// The faces between nodes; if there is none, those that have a node of them.
+    /// Boundary faces with all vertices among `nodes`; if there are none, those with any.
     std::vector<BoundaryFace>
     faces_between(const std::vector<unsigned int> &nodes, const Mesh &mesh)
     {
@@ -110,7 +110,7 @@ namespace Exemplar
 
   namespace
   {
-    /// Each node counts once.
+    /// Sum of nodal shares over the body; each node counts once.
     double
     sum_of_shares(const Exchange                  &exchange,
                   const std::vector<unsigned int> &nodes,

@@ -11,7 +11,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// The sums of the rows on the diagonal.
+    /// Lump a matrix: row sums on the diagonal.
     void
     sum_rows(dealii::SparseMatrix<double> &mass)
     {
@@ -27,8 +27,8 @@ namespace Exemplar
       }
     }
 
-    /// Where the sums are negative at vertices, as of quadratic elements: the diagonal of each cell's
-    /// matrix is scaled to the cell's mass (Hinton, Rock, Zienkiewicz 1976).
+    /// Lumping where row sums are negative at vertices, as for quadratic elements: the diagonal of
+    /// each cell's matrix is scaled to the cell's mass (Hinton, Rock, Zienkiewicz 1976).
     void
     scale_diagonals(const FESpace                &fe_space,
                     const std::vector<double>    &density,

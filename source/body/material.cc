@@ -55,7 +55,7 @@ namespace Exemplar
             values.poissons_ratio > -1. && values.poissons_ratio < 0.5);
     }
 
-    /// What makes an energy of the strain along fibres: the constant of that law.
+    /// Name of the fibre stiffness, the constant of the law with fibres.
     const char *const alpha = Fibrous<double>::own_constants[0].name;
 
     Orthotropy
@@ -93,7 +93,7 @@ namespace Exemplar
       return std::make_shared<const OwnConstants>(values.own);
     }
 
-    /// `own` are those of `values`.
+    /// Constants of a cell; `own` equals values.own.
     CellConstants
     constants_of(const ElasticConstants &values, std::shared_ptr<const OwnConstants> own)
     {
@@ -123,7 +123,7 @@ namespace Exemplar
                is_orthotropic };
     }
 
-    /// Behind Lame's constants those of the law that any C needs.
+    /// The constants beyond Lamé's of the law of general anisotropy.
     std::array<double, 22>
     stiffness(const CellConstants &of_cell, const GrainAxes &axes)
     {
@@ -233,7 +233,7 @@ namespace Exemplar
 
   namespace
   {
-    /// Of a cell, from what is changed or as it was.
+    /// The value of a constant in a cell: changed, or as before.
     double
     changed_to(const std::vector<double> &values, const unsigned int cell, const double before)
     {
@@ -270,7 +270,7 @@ namespace Exemplar
     result.axes = axes;
     result.constants.reserve(constants_of_cell.size());
     result.constants_of_cell.reserve(constants_of_cell.size());
-    const OwnConstants *own = nullptr; // that `values` has
+    const OwnConstants *own = nullptr; // source of values.own
     for (unsigned int cell = 0; cell < constants_of_cell.size(); ++cell)
     {
       const CellConstants &before = constants[constants_of_cell[cell]];
@@ -285,7 +285,7 @@ namespace Exemplar
       result.constants.push_back(constants_of(values, before.own));
       if (changed.youngs_modulus.empty() && changed.poissons_ratio.empty())
       {
-        result.constants.back()         = before; // to the last digit
+        result.constants.back()         = before; // bitwise unchanged
         result.constants.back().density = values.density;
       }
       else if (before.is_orthotropic)
@@ -317,7 +317,7 @@ namespace Exemplar
   Material::part(const std::vector<unsigned int> &cells) const
   {
     Material                             result;
-    std::map<unsigned int, unsigned int> number; // there, of constants here
+    std::map<unsigned int, unsigned int> number; // indices in the result, by index here
     for (const unsigned int cell : cells)
     {
       const unsigned int here = constants_of_cell[cell];

@@ -16,7 +16,7 @@ namespace Exemplar
     const EnumTable<MassMatrix> mass_matrices
         = { { MassMatrix::consistent, "consistent" }, { MassMatrix::lumped, "lumped" } };
 
-    /// Those that laws add to the three above, each once.
+    /// Constants by name of all laws beside Young's modulus, Poisson's ratio and density.
     std::map<std::string, LawConstant>
     constants_of_laws()
     {
@@ -65,7 +65,7 @@ namespace Exemplar
           "; ");
     }
 
-    /// Orthotropy, and what does not go with it.
+    /// Check Orthotropy, and keys that exclude it.
     void
     check_orthotropy(const ElasticConstants &constants, const std::string &section)
     {

@@ -6,13 +6,14 @@
 //   (1 - eta)/2 e:C:e + eta/2 (e - E):C_e:(e - E) = 1/2 (e - D):C':(e - D) + 1/2 D:C_y:D,
 //   C' = (1 - eta) C + eta C_e,  D = C'^-1:eta C_e:E,  C_y = (1 - eta)/eta C':C_e^-1:C,   Eq. (38)
 //
-// is that of a body of C' whose examples have the strains D, but for a form of the weights alone.
+// is that of a body with elasticity C' whose examples have the strains D, plus a form of the
+// weights alone.
 
 namespace Exemplar
 {
   namespace
   {
-    /// C_e of a cell of which these are the constants without examples.
+    /// C_e of a cell whose constants without examples are `body`.
     Orthotropy
     elasticity_for(const CellConstants &body, const ExampleElasticity &own)
     {
@@ -107,7 +108,7 @@ namespace Exemplar
   {
     if (!body_is_isotropic)
       return 0.;
-    // an isotropic tensor makes lambda of a stretch, across it
+    // the transverse stress of a unit stretch is lambda
     Matrix3<double> stretch{};
     stretch[0][0] = 1.;
     return excess_stress(stretch)[1][1];

@@ -38,7 +38,7 @@ namespace Exemplar
       return text + ". Example strains are of the same measure.";
     }
 
-    /// The strains of which patches may have the volume part.
+    /// Names of the strains whose volume part patches may have.
     std::string
     strains_with_patches()
     {

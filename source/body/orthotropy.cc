@@ -18,7 +18,7 @@ namespace Exemplar
     Matrix3<double>
     inverse(const Matrix3<double> &A)
     {
-      const Matrix3<double> cofactor = cofactors(A); // symmetric, as A is
+      const Matrix3<double> cofactor = cofactors(A); // symmetric like A
       return combine(1. / determinant(A), cofactor, 0., cofactor);
     }
 
@@ -115,7 +115,7 @@ namespace Exemplar
   Orthotropy::lambda_of_patches() const
   {
     const double bulk = 1. / sum_of_entries(inverse(normal));
-    // of the deviators, in an orthonormal basis of those without shear
+    // C on deviatoric strains, in an orthonormal basis of those without shear
     const double          s = std::sqrt(0.5), t = std::sqrt(1. / 6.);
     const Vector3<double> basis[2] = { { { s, -s, 0. } }, { { t, t, -2. * t } } };
     double                A[2][2];
@@ -168,7 +168,7 @@ namespace Exemplar
 
   namespace
   {
-    /// All three; isotropic cells have none, and need none.
+    /// All three axes; arbitrary ones for isotropic cells, which store none.
     std::array<Axis, 3>
     complete(const GrainAxes &axes)
     {
@@ -178,7 +178,8 @@ namespace Exemplar
       return { { along, across, cross(along, across) } };
     }
 
-    /// The product of a symmetric matrix with the tensor that has these blocks in these axes.
+    /// Product with a symmetric matrix of the tensor that has these normal and shear blocks in
+    /// these axes.
     Matrix3<double>
     product(const Matrix3<double>       &normal,
             const std::array<double, 3> &twice_shear,
@@ -186,7 +187,7 @@ namespace Exemplar
             const Matrix3<double>       &E)
     {
       const std::array<Axis, 3> all = complete(axes);
-      Matrix3<double>           Q, P; // rows and columns are the axes
+      Matrix3<double>           Q, P; // Q has the axes as rows, P as columns
       for (int a = 0; a < 3; ++a)
         for (int i = 0; i < 3; ++i)
           P[i][a] = Q[a][i] = all[a][i];

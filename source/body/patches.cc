@@ -18,7 +18,8 @@ namespace Exemplar
   {
     constexpr unsigned int no_patch = static_cast<unsigned int>(-1);
 
-    /// Cells with the same kind may share a patch: material id, sign and octave of lambda.
+    /// The kind of a cell: material id, sign and octave of lambda. Only cells of one kind share a
+    /// patch.
     using Kind = std::array<int, 3>;
 
     std::vector<Kind>
@@ -65,7 +66,7 @@ namespace Exemplar
       return beside;
     }
 
-    /// The choice of the patches.
+    /// The algorithm of Patches::choose() for linear elements.
     class Stars
     {
     public:
@@ -81,7 +82,7 @@ namespace Exemplar
           join_neighbours(0);
         }
         join_neighbours(1);
-        take_stars(1); // of cells with no neighbour of their kind that has a patch
+        take_stars(1); // remaining cells have no neighbour of their kind with a patch
       }
 
       std::vector<unsigned int>
@@ -91,7 +92,7 @@ namespace Exemplar
       }
 
     private:
-      /// The cells at a node that have no patch, of the kind that most of them have.
+      /// The cells at a node without a patch, of their most frequent kind.
       std::vector<unsigned int>
       star(const unsigned int node) const
       {
@@ -106,11 +107,11 @@ namespace Exemplar
         return maximum;
       }
 
-      /// The stars of `minimum` cells or more become patches, the greatest first.
+      /// Turn stars of `minimum` cells or more into patches, the greatest first.
       void
       take_stars(const std::size_t minimum)
       {
-        // by number of cells, then by least node; a number may be older than the last patch
+        // ordered by number of cells, then by least node; entries may be outdated by later patches
         using Entry = std::pair<std::size_t, long>;
         std::priority_queue<Entry> queue;
         const auto                 push = [&](const unsigned int node)
@@ -149,8 +150,8 @@ namespace Exemplar
         nodes[to].insert(cells[cell].begin(), cells[cell].end());
       }
 
-      /// Cells without a patch join one with which they share a face, as long as it gains no more
-      /// than so many nodes; the cell with the best choice is always the next.
+      /// Let cells without a patch join one with which they share a face, as long as it gains at
+      /// most `max_gain` nodes; always the cell with the best choice next.
       void
       join_neighbours(const int max_gain)
       {
@@ -180,8 +181,8 @@ namespace Exemplar
         }
       }
 
-      /// The number of nodes that a patch would gain by a cell, minus the number of their common
-      /// faces, the number of its cells, the cell, the patch: less is better.
+      /// Sort key of a cell's choice of a patch, less is better: number of nodes gained, minus the
+      /// number of common faces, number of cells of the patch, cell, patch.
       using Choice = std::array<int, 5>;
 
       Choice
@@ -199,7 +200,8 @@ namespace Exemplar
         return best;
       }
 
-      /// The patches that share a face with a cell of their kind, and how many faces each does.
+      /// The patches that share faces with a cell of their kind, each with the number of these
+      /// faces.
       std::map<unsigned int, int>
       patches_beside(const unsigned int cell) const
       {
@@ -214,9 +216,9 @@ namespace Exemplar
       const std::vector<Kind>                        &kinds;
       const std::vector<std::vector<unsigned int>>    around;  ///< the cells at each node
       const std::vector<std::array<unsigned int, 4>>  beside;  ///< cells_beside()
-      std::vector<unsigned int>                       patch;   ///< of each cell
-      std::vector<int>                                n_cells; ///< of each patch
-      std::vector<std::set<unsigned int>>             nodes;   ///< of each patch
+      std::vector<unsigned int>                       patch;   ///< patch of each cell
+      std::vector<int>                                n_cells; ///< number of cells of each patch
+      std::vector<std::set<unsigned int>>             nodes;   ///< nodes of each patch
     };
   } // namespace
 

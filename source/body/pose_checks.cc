@@ -14,18 +14,18 @@ namespace Exemplar
 {
   namespace
   {
-    /// Beyond a factor of this, either way, a size is no deformation but another unit.
+    /// A ratio of sizes beyond this, either way, comes from other units, not from deformation.
     constexpr double max_size_ratio = 100.;
 
-    /// Of the volume that a cell of the pose's size would have.
+    /// Tolerance of |det F|, relative to size_ratio^3, for flat cells.
     constexpr double flat_tolerance = 1e-9;
 
-    /// Of the Green strain.
+    /// Tolerance of the Green strain for rigid motions.
     constexpr double rigid_tolerance = 1e-9;
 
     struct PoseMeasures
     {
-      double                   size_ratio; ///< of the pose to the rest pose
+      double                   size_ratio; ///< size of the pose over that of the rest pose
       double                   max_strain     = 0.;
       double                   max_abs_volume = 0.; ///< det F over size_ratio^3
       std::vector<std::size_t> inverted;            ///< element numbers
@@ -62,17 +62,18 @@ namespace Exemplar
       return pose;
     }
 
-    /// Where one cell of so many is inverted, or more, the nodes make no sense.
+    /// If at least one in this many cells is inverted, the order of the nodes is wrong.
     constexpr std::size_t inverted_share = 4;
 
-    /// Displacements make no cells, are small, and make a pose of the places at rest.
+    /// Whether `positions` may be displacements: as positions they invert cells and are small, but
+    /// added to the rest positions they make a valid pose.
     bool
     may_be_displacements(const PoseMeasures           &pose,
                          const Mesh                   &mesh,
                          const FESpace                &fe_space,
                          const dealii::Vector<double> &positions)
     {
-      constexpr double large = 0.75; // a body that is made flat has .8
+      constexpr double large = 0.75; // a body made flat has .8
       if (inverted_share * pose.inverted.size() < mesh.whole().n_cells || pose.size_ratio > large)
         return false;
       dealii::Vector<double> sum = positions;

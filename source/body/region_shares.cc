@@ -32,7 +32,7 @@ namespace Exemplar
       return pattern;
     }
 
-    /// Lumped mass and l^2 times the stiffness of Laplace's equation.
+    /// Matrix of the filter: lumped mass plus l^2 times the stiffness of Laplace's equation.
     void
     assemble_filter(const FESpace          &fe_space,
                     const double            l_square,

@@ -11,7 +11,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// So that states are equal if all that serialize() knows is.
+    /// Serialised bytes; states are equal if these are.
     std::string
     bytes_of(const State &state)
     {

@@ -5,7 +5,8 @@ namespace Exemplar
 {
   namespace
   {
-    /// factor times a strain that these axes see without shear; 0 without axes.
+    /// factor times the strain with these normal components in the given axes and no shear; 0
+    /// without axes.
     Matrix3<double>
     strain_in(const GrainAxes &axes, const std::array<double, 3> &entries, const double factor)
     {

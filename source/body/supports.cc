@@ -33,7 +33,7 @@ namespace Exemplar
       }
     }
 
-    /// The degrees of freedom that processes give, as those of the whole body.
+    /// Union of the processes' degrees of freedom, numbered in the whole body.
     std::vector<unsigned int>
     in_whole(const Exchange                  &exchange,
              const std::size_t                n_dofs,
@@ -87,7 +87,8 @@ namespace Exemplar
                        const dealii::Vector<double>    &rest_positions,
                        const std::vector<unsigned int> &held_dofs)
   {
-    // rows: the six rigid motions at a held degree of freedom, lengths in diameters
+    // rows: the values of the six rigid motions at a held degree of freedom, with lengths in
+    // diameters
     const Exchange                     &exchange = mesh.exchange();
     const std::vector<dealii::Point<3>> nodes    = nodes_of(whole(exchange, rest_positions, true));
     const std::vector<unsigned int>     held = in_whole(exchange, rest_positions.size(), held_dofs);
@@ -158,7 +159,7 @@ namespace Exemplar
       moment += dealii::cross_product_3d(arm, u[node] - shift);
       inertia += arm.norm_square() * dealii::unit_symmetric_tensor<3>() - outer_product(arm, arm);
     }
-    // points on a line have no inertia about it: then only the translation is taken out
+    // collinear points have no inertia about their line: then only the translation is taken out
     const bool has_volume = determinant(inertia) > 1e-12 * std::pow(trace(inertia), 3);
     const dealii::Tensor<1, 3> rotation
         = has_volume ? invert(inertia) * moment : dealii::Tensor<1, 3>();

@@ -12,7 +12,7 @@ namespace Exemplar
     {
       static const CellKernels         baseline = cell_kernels<Instructions::baseline>(of);
       std::vector<const CellKernels *> all      = { &baseline };
-      // even the function that names the loops is compiled with the instructions of its set
+      // even the function that returns the kernels is compiled with the instructions of its set
 #ifdef EXEMPLAR_HAS_AVX2
       if (best_instruction_set() >= InstructionSet::avx2)
       {

@@ -16,7 +16,7 @@ namespace Exemplar
   std::vector<double>
   CellOrder::whole(const std::vector<double> &own) const
   {
-    const std::size_t   n = own.size() / places.size(); // of each
+    const std::size_t   n = own.size() / places.size(); // values of each cell
     std::vector<double> all(n * n_of_whole, 0.);
     for (std::size_t cell = 0; cell < places.size(); ++cell)
       std::copy_n(own.begin() + n * cell, n, all.begin() + n * places[cell]);
@@ -27,7 +27,7 @@ namespace Exemplar
   std::vector<double>
   CellOrder::part(const std::vector<double> &of_whole_body) const
   {
-    const std::size_t   n = of_whole_body.size() / n_of_whole; // of each
+    const std::size_t   n = of_whole_body.size() / n_of_whole; // values of each cell
     std::vector<double> own(n * places.size());
     for (std::size_t cell = 0; cell < places.size(); ++cell)
       std::copy_n(of_whole_body.begin() + n * places[cell], n, own.begin() + n * cell);

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// What gmsh and meshio convert: https://gmsh.info/doc/texinfo/gmsh.html, https://github.com/nschloe/meshio
+// SPDX-License-Identifier: GPL-3.0-or-later What gmsh and meshio convert:
+// https://gmsh.info/doc/texinfo/gmsh.html, https://github.com/nschloe/meshio
 #include <exemplar/mesh/foreign_formats.h>
 
 #include <algorithm>
@@ -30,8 +30,8 @@ namespace Exemplar
     {
       std::string              name;
       Way                      way;
-      std::vector<std::string> extensions; ///< in small letters
-      std::vector<std::string> beginnings; ///< of files of this format; may be none
+      std::vector<std::string> extensions; ///< extensions in lower case
+      std::vector<std::string> beginnings; ///< first bytes of such files; may be empty
     };
 
     const std::vector<Format> &
@@ -139,7 +139,8 @@ namespace Exemplar
           });
     }
 
-    /// By its bytes; but what is packed, or XML, may be a format of this that has no bytes of its own.
+    /// The format of a file by its bytes; if these are only those of a zip archive or of XML, by
+    /// its extension, provided that its format has no first bytes of its own.
     const Format *
     format_of(const std::filesystem::path &file, const std::string_view bytes)
     {
@@ -156,7 +157,7 @@ namespace Exemplar
       return name.find_first_of(" '&;()") == std::string::npos ? name : "\"" + name + "\"";
     }
 
-    /// How a mesh is made of a file that is called so, in the words of a shell.
+    /// Shell commands that convert a file of this name into a mesh.
     std::string
     conversion(const Way way, const std::filesystem::path &file)
     {
@@ -202,7 +203,7 @@ namespace Exemplar
       }
     }
 
-    /// The file under a name with an ending of its format: programs go by that.
+    /// The file's name with an extension of its format, by which programs tell the format.
     std::filesystem::path
     with_right_name(const Format &format, std::filesystem::path file)
     {

@@ -14,7 +14,7 @@
 #include <fstream>
 #include <sstream>
 
-// Meshes that gmsh makes of .geo files.
+// Meshing of .geo files by gmsh.
 
 namespace Exemplar
 {
@@ -22,11 +22,11 @@ namespace Exemplar
 
   namespace
   {
-    /// What gmsh is allowed [s, bytes]: far more than any mesh has taken, but not for ever.
+    /// Limits of gmsh [s, bytes]: far more than any mesh has taken, but finite.
     constexpr double      time_limit    = 600.;
     constexpr std::size_t message_limit = 16 << 20;
 
-    /// gmsh's errors, or else the last lines that it wrote.
+    /// gmsh's errors, or else the last lines of its output.
     std::string
     telling_lines(const std::string &output)
     {
@@ -46,12 +46,12 @@ namespace Exemplar
       return text;
     }
 
-    /// What gmsh makes of a .geo, from a script that runs in a directory.
+    /// Input of gmsh for a .geo: a script that runs in a directory.
     struct Meshing
     {
       const fs::path &geo;       ///< for messages
-      fs::path        script;    ///< the .geo, or the text that was made of it
-      fs::path        directory; ///< an empty one, or that of the text
+      fs::path        script;    ///< the .geo, or the text generated from it
+      fs::path        directory; ///< an empty one, or that of the generated text
       Confinement     confinement;
     };
 
@@ -124,7 +124,7 @@ namespace Exemplar
       return msh;
     }
 
-    /// The walls that the comment names, behind that of the text.
+    /// Restrictions in force: "text", followed by those that the comment names.
     std::vector<std::string>
     walls_around(const std::string &msh)
     {

@@ -22,7 +22,7 @@ namespace Exemplar
   {
     using DimTags = std::vector<std::pair<int, int>>;
 
-    /// The mesh that gmsh holds, as it would write it to a file of version 2.2.
+    /// Conversion of gmsh's mesh to what it would write to a file of version 2.2.
     class MeshTaking
     {
     public:
@@ -52,7 +52,8 @@ namespace Exemplar
         }
       }
 
-      /// By type, then by entity; an element of several groups is there several times.
+      /// Take the elements by type, then by entity; an element of several groups is taken once for
+      /// each.
       void
       take_elements()
       {
@@ -97,7 +98,7 @@ namespace Exemplar
           }
       }
 
-      /// Groups of negative numbers hold their elements turned over.
+      /// Reverse the orientation of an element, as in groups of negative numbers.
       static void
       turn_over(MshElement &element)
       {
@@ -107,7 +108,7 @@ namespace Exemplar
           std::swap(element.nodes[0], element.nodes[1]);
       }
 
-      /// Those that elements have, numbered in gmsh's order.
+      /// Take the nodes that elements have, in gmsh's order.
       void
       take_nodes()
       {
@@ -138,7 +139,8 @@ namespace Exemplar
             node = index[node];
       }
 
-      /// gmsh's files have 16 digits; with 17, a mesh would differ from that of gmsh itself.
+      /// Round to the 16 digits of gmsh's files; with 17, a mesh would differ from that of gmsh
+      /// itself.
       static double
       rounded(const double x)
       {
@@ -161,7 +163,7 @@ namespace Exemplar
                         "the .msh.");
     }
 
-    /// Empty if gmsh fails.
+    /// The .msh that gmsh makes of a script; empty if gmsh fails.
     std::string
     mesh_by_gmsh(const std::filesystem::path &script, const std::vector<std::string> &walls)
     {
@@ -169,7 +171,7 @@ namespace Exemplar
       try
       {
         gmsh::option::setNumber("General.Terminal", 1.);
-        gmsh::option::setNumber("General.AbortOnError", 0.); // it shall say all that is wrong
+        gmsh::option::setNumber("General.AbortOnError", 0.); // report all errors
         gmsh::open(script.string());
         gmsh::model::mesh::generate(3);
         std::string error;
@@ -186,7 +188,7 @@ namespace Exemplar
       }
     }
 
-    /// In the copy.
+    /// Mesh in the copied process.
     std::string
     mesh_here(const std::filesystem::path &script,
               const std::filesystem::path &directory,
@@ -197,7 +199,7 @@ namespace Exemplar
         throw UserError(directory.string() + " cannot be entered.");
       if (confinement == Confinement::kernel)
         confine_or_refuse(directory, walls);
-      const OneOpenMPThread one_thread; // others are not in the copy
+      const OneOpenMPThread one_thread; // the copy has no other threads
       return mesh_by_gmsh(script, walls);
     }
   } // namespace

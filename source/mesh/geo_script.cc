@@ -19,7 +19,7 @@ namespace Exemplar
     const std::set<std::string> refused_commands
         = { "CreateDir", "Open", "Plugin", "Print", "Save", "SendToServer", "System" };
 
-    /// Words by which a script reads what gmsh is not given.
+    /// Words by which a script reads data that gmsh is not given.
     const std::set<std::string> readers
         = { "FileExists", "FileName", "GetEnv", "ListFromFile", "ShapeFromFile" };
 

@@ -24,10 +24,10 @@ namespace Exemplar
 
   namespace
   {
-    /// Limits of a text, far beyond any that is meant: inclusions may double it again and again.
+    /// Limits of a text, far beyond any intended: inclusions may double it again and again.
     constexpr std::size_t max_inclusions = 10000, max_levels = 100, max_tokens = 20000000;
 
-    /// A file by what it is, not by a path that leads to it.
+    /// Identity of a file, independent of the path to it.
     using FileIdentity = std::pair<dev_t, ino_t>;
 
     /// Reads each file once, so that all see the same bytes.
@@ -74,7 +74,7 @@ namespace Exemplar
       std::map<FileIdentity, std::string> bytes;
     };
 
-    /// Puts a script and all that it takes in together.
+    /// Assembles a script and all files that it takes in.
     class Assembly
     {
     public:
@@ -92,7 +92,7 @@ namespace Exemplar
       std::map<std::string, std::string> data;
 
     private:
-      /// The scripts that are being taken in, outermost first.
+      /// The nested scripts being read.
       using Stack = std::set<FileIdentity>;
 
       void
@@ -109,7 +109,7 @@ namespace Exemplar
           throw UserError(path.string() + ": with all that it includes, the script is too long.");
       }
 
-      /// Returns where the next piece begins.
+      /// Add a piece of a script; returns where the next one begins.
       std::size_t
       add_piece(const std::vector<GeoToken> &tokens,
                 const std::size_t            i,
@@ -128,7 +128,7 @@ namespace Exemplar
               && (geo_token(tokens, i + 3).text == ")" || geo_token(tokens, i + 3).text == "]"))
           {
             const FileIdentity file = open_named(tokens[i + 2], path);
-            // no word, as it is known what this one reads
+            // a sign, not a word: what this one reads is known
             script.push_back({ GeoToken::Kind::sign, "ListFromFile", tokens[i].origin, true });
             script.push_back(tokens[i + 1]);
             add_name(tokens[i + 2], files.bytes_of(file), ".txt");
@@ -167,7 +167,7 @@ namespace Exemplar
           add_options_of(place_of(name, path), within);
       }
 
-      /// gmsh takes options from a file beside another one.
+      /// Add the options that gmsh takes from a file beside another one.
       void
       add_options_of(const fs::path &path, const Stack &within)
       {
@@ -204,7 +204,7 @@ namespace Exemplar
         }
       }
 
-      /// The name of a copy instead of a file's own.
+      /// Add the name of a copy instead of a file's own.
       void
       add_name(const GeoToken &name, const std::string &bytes, const std::string &extension)
       {
@@ -223,7 +223,7 @@ namespace Exemplar
       return a.file == b.file && a.line == b.line;
     }
 
-    /// Whether a token would grow together with the one before.
+    /// Whether two tokens would merge without a blank.
     bool
     needs_gap(const GeoToken &before, const GeoToken &token)
     {
@@ -231,7 +231,7 @@ namespace Exemplar
              || (before.kind == GeoToken::Kind::number && token.kind != GeoToken::Kind::sign);
     }
 
-    /// Lines stay lines, as gmsh's loops and macros go back to their beginnings.
+    /// Write the script line by line, as gmsh's loops and macros jump to beginnings of lines.
     void
     write_script(const std::vector<GeoToken> &tokens, GeoText &text)
     {

@@ -71,7 +71,7 @@ namespace Exemplar
           add(Kind::sign, at + 1);
       }
 
-      /// Where characters end for which `belongs` is true.
+      /// End of the characters for which `belongs` is true.
       template <typename Belongs>
       std::size_t
       end_of(const Belongs &belongs) const
@@ -90,7 +90,7 @@ namespace Exemplar
         after_gap = false;
       }
 
-      /// Go behind what is no token.
+      /// Skip blanks and comments.
       void
       skip_to(const std::size_t end)
       {
@@ -138,7 +138,7 @@ namespace Exemplar
           refuse_geo(origin, "a string begins here and does not end on this line");
         if (end - at > 1000)
           refuse_geo(origin, "a string is longer than the 1023 bytes that gmsh reads");
-        // where gmsh skips a part, it looks for these words in strings, too
+        // gmsh looks for these words in strings, too, where it skips a part
         const std::string inside = text.substr(at + 1, end - at - 1);
         for (const GeoToken &token : Tokenizer(without_quotes(inside), origin).read())
           if (WordSet{ "EndIf", "EndFor", "Else", "ElseIf", "Return" }.count(token.text) > 0)
@@ -158,7 +158,7 @@ namespace Exemplar
       }
 
       const std::string    &text;
-      GeoOrigin             origin; ///< of what comes next
+      GeoOrigin             origin; ///< origin of the next token
       std::size_t           at        = 0;
       bool                  after_gap = true;
       std::vector<GeoToken> tokens;

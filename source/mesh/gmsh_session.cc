@@ -9,7 +9,7 @@ namespace Exemplar
 {
   GmshSession::GmshSession()
   {
-    gmsh::initialize(0, nullptr, false); // no user's settings
+    gmsh::initialize(0, nullptr, false); // without the user's settings
   }
 
   GmshSession::~GmshSession()

@@ -10,8 +10,8 @@ namespace Exemplar
 {
   namespace
   {
-    /// How files of a format begin. Not even white space may come before: gmsh would take a .msh or
-    /// .pos for a script.
+    /// First bytes of the formats, without white space before them: with any, gmsh would take a
+    /// .msh or .pos for a script.
     constexpr std::array<std::pair<const char *, const char *>, 10> beginnings{
       { { "ISO-10303-21;", ".step" },
         { "DBRep_DrawableShape", ".brep" },
@@ -31,7 +31,7 @@ namespace Exemplar
       return bytes.compare(at, text.size(), text) == 0;
     }
 
-    /// "solid", and a facet before long; or as many triangles as the head says.
+    /// Whether bytes are an STL: "solid" and soon a facet, or as many triangles as the header says.
     bool
     is_stl(const std::string &bytes)
     {
@@ -45,7 +45,8 @@ namespace Exemplar
       return bytes.size() == head + triangle * std::size_t(n_triangles);
     }
 
-    /// The first line says in columns 73 to 80 that it is the first of the start section.
+    /// Whether bytes are an IGES: columns 73 to 80 of the first line name the first line of the
+    /// start section.
     bool
     is_iges(const std::string &bytes)
     {

@@ -210,7 +210,7 @@ namespace Exemplar
 
   namespace
   {
-    /// All of a mesh, as a part.
+    /// The whole mesh as a part.
     MeshPart
     whole_part(MeshArrays arrays)
     {
@@ -242,8 +242,8 @@ namespace Exemplar
       return result;
     }
 
-    /// Everything else relies on deal.II's numbers being the file's: 9.5 has begun to remove unused
-    /// vertices when reading, so do not take it for granted.
+    /// Check that deal.II's numbers are the file's, on which everything else relies: 9.5 has begun
+    /// to remove unused vertices when reading.
     void
     check_numbering(const dealii::Triangulation<3> &triangulation, const MeshArrays &arrays)
     {
@@ -302,7 +302,7 @@ namespace Exemplar
   std::vector<std::size_t>
   whole_elements(const Mesh &mesh, const std::vector<unsigned int> &own_cells)
   {
-    std::vector<std::size_t> pairs; // of a cell's place in the file and its number there
+    std::vector<std::size_t> pairs; // pairs of a cell's index in the file and its element number
     for (const unsigned int cell : own_cells)
     {
       pairs.push_back(mesh.cell_order().in_file()[cell]);

@@ -16,7 +16,7 @@ namespace Exemplar
   namespace
   {
     constexpr double flat_tolerance = 1e-12;
-    constexpr double largest_place  = 1e50; ///< [m]; energies are made of its fifth power
+    constexpr double largest_place  = 1e50; ///< [m]; energies grow as its fifth power
 
     std::string
     in_words(const std::size_t n, const std::string &noun)
@@ -52,7 +52,7 @@ namespace Exemplar
           in_words(refused.size(), "element"), list_numbers(refused)));
     }
 
-    /// Of which one coordinate is the same everywhere.
+    /// Refuse a mesh in which some coordinate is the same at all nodes.
     void
     refuse_flat_mesh(const MshFile &contents, const std::string &name)
     {
@@ -261,7 +261,7 @@ namespace Exemplar
       return signed_volume({ { nodes[face.nodes[0]], nodes[face.nodes[1]], nodes[face.nodes[2]],
                                nodes[face.opposite] } });
     };
-    std::set<std::size_t> overlapping; // element numbers
+    std::set<std::size_t> overlapping; // their element numbers
     for (std::size_t i = 1; i < faces.size(); ++i)
       if (faces[i].nodes == faces[i - 1].nodes
           && (volume(faces[i]) > 0.) == (volume(faces[i - 1]) > 0.))
@@ -269,7 +269,7 @@ namespace Exemplar
           overlapping.insert(tetrahedra.element_numbers[faces[j].cell]);
     if (overlapping.empty())
       return;
-    // where the file's order of nodes is the same in valid cells, it tells which cells are wrong
+    // if valid cells have the same order of nodes in the file, it tells which cells are inverted
     const std::set<std::size_t> negative(swapped.begin(), swapped.end());
     const bool                  is_mirrored = 2 * negative.size() > tetrahedra.nodes.size();
     std::vector<std::size_t>    inverted;

@@ -8,13 +8,13 @@
 #include <numeric>
 #include <optional>
 
-// check_connected(), and what it says about bodies in several pieces.
+// check_connected(), and its messages about bodies in several pieces.
 
 namespace Exemplar
 {
   namespace
   {
-    /// Parts of the mesh that hang together through faces (union by smaller root).
+    /// Components of the mesh that are connected through faces (union by smaller root).
     class Components
     {
     public:
@@ -63,7 +63,7 @@ namespace Exemplar
     bool
     share_an_edge(const std::vector<bool> &shared, const Tetrahedra &tetrahedra, Components &parts)
     {
-      std::vector<std::array<unsigned int, 3>> edges; // nodes, component
+      std::vector<std::array<unsigned int, 3>> edges; // both nodes, and the component
       for (unsigned int cell = 0; cell < tetrahedra.nodes.size(); ++cell)
         for (const unsigned int a : tetrahedra.nodes[cell])
           for (const unsigned int b : tetrahedra.nodes[cell])
@@ -105,7 +105,7 @@ namespace Exemplar
       if (faces[i].nodes == faces[i - 1].nodes)
         parts.join(faces[i].cell, faces[i - 1].cell);
 
-    std::vector<std::size_t> first_elements; // one a part
+    std::vector<std::size_t> first_elements; // one of each component
     for (unsigned int cell = 0; cell < n_cells; ++cell)
       if (parts.root(cell) == cell)
         first_elements.push_back(tetrahedra.element_numbers[cell]);

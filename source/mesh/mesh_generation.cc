@@ -53,8 +53,8 @@ namespace Exemplar
       box.elements.push_back({ box.elements.size() + 1, type, id, id, nodes });
     }
 
-    /// The two triangles of a brick's side, facing outwards. They share the side's
-    /// diagonal from its lowest to its highest corner, as the tetrahedra have it.
+    /// Add the two triangles of a brick's side, facing outwards. They share the side's diagonal
+    /// from its lowest to its highest corner, as the tetrahedra have it.
     void
     add_side(MshFile           &box,
              const BoxNodes    &nodes,
@@ -97,8 +97,8 @@ namespace Exemplar
         }
     }
 
-    /// Kuhn's subdivision: each order of the three axes is a way along the edges
-    /// from the lowest to the highest corner, and its 4 corners are a tetrahedron.
+    /// Add a brick by Kuhn's subdivision: each permutation of the three axes is a path along the
+    /// edges from the lowest to the highest corner, whose 4 corners are a tetrahedron.
     void
     add_brick(MshFile &box, const BoxNodes &nodes, const Triple &lowest)
     {
@@ -119,7 +119,7 @@ namespace Exemplar
       } while (std::next_permutation(axes.begin(), axes.end()));
     }
 
-    // Of a tetrahedron in the mesh alone; a run takes some times as much.
+    // Memory of a tetrahedron in the mesh alone [bytes]; a run takes several times as much.
     constexpr double least_bytes = 1000.;
 
     void

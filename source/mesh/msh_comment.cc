@@ -9,7 +9,7 @@ namespace Exemplar
   {
     const std::string comment_begin = "\n$Comments\n", comment_end = "\n$EndComments\n";
 
-    /// Where the comment begins that was put in last.
+    /// Position of the last comment.
     std::size_t
     comment_place(const std::string &msh)
     {

@@ -7,7 +7,8 @@ namespace Exemplar
 {
   namespace
   {
-    /// By gmsh's type, from 1 (https://gmsh.info/doc/texinfo/gmsh.html, "File formats").
+    /// Element kinds by gmsh's type, from 1 (https://gmsh.info/doc/texinfo/gmsh.html, "File
+    /// formats").
     constexpr std::array<MshElementKind, 31> element_kinds{
       { { "2-node line", 1, 2 },          { "3-node triangle", 2, 3 },
         { "4-node quadrangle", 2, 4 },    { "4-node tetrahedron", 3, 4 },

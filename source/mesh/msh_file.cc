@@ -124,7 +124,7 @@ namespace Exemplar
     in.count();
   }
 
-  /// Node numbers for the time being, see resolve_node_numbers().
+  /// Read an element's node numbers, which resolve_node_numbers() replaces by indices.
   void
   MshReader::read_element_nodes(MshElement &element, const unsigned int n_nodes)
   {
@@ -145,8 +145,8 @@ namespace Exemplar
     return *kind;
   }
 
-  /// A count is not to be believed until the things have been read: reserve no
-  /// more than the file can hold, at 8 bytes for the shortest line "1 0 0 0\n".
+  /// Begin to read items. Their announced number is not trusted until they have been read: reserve
+  /// no more than the file can hold, at 8 bytes for the shortest line "1 0 0 0\n".
   void
   MshReader::begin_items(const std::size_t n_items, const std::string &what)
   {

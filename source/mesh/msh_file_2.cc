@@ -44,7 +44,7 @@ namespace Exemplar
         for (std::size_t k = 0; k < n_tags; ++k)
         {
           const int tag = checked_tag(in.read_int());
-          if (k < 2) // others number partitions
+          if (k < 2) // the others are partitions
             (k == 0 ? element.physical : element.elementary) = tag;
         }
         read_element_nodes(element, kind.n_nodes);

@@ -51,7 +51,7 @@ namespace Exemplar
     {
       const std::size_t dimension = in.read_int_as_size();
       in.read_int(); // entity
-      // Nodes on an entity may carry their parameters on it as well.
+      // Nodes on an entity may have parameters on it, too.
       const std::size_t n_parameters = (in.read_int() != 0) ? dimension : 0;
       const std::size_t first        = msh.node_numbers.size();
       const std::size_t n_in_block   = in.read_size();

@@ -26,7 +26,7 @@ namespace Exemplar
       : file(name), bytes(std::move(all_bytes))
   {
     if (const std::string mark = "\xEF\xBB\xBF"; bytes.compare(0, mark.size(), mark) == 0)
-      position = mark.size(); // that editors put before UTF-8
+      position = mark.size(); // byte order mark of UTF-8
     if (bytes.compare(position, 1, "$") == 0)
       return;
     if (const std::string remedy = remedy_of_mesh(file, bytes); !remedy.empty())
@@ -182,13 +182,13 @@ namespace Exemplar
       return raw<double>();
 
     const std::string_view word  = text_word();
-    const std::size_t      plus  = (word[0] == '+') ? 1 : 0; // from_chars knows no plus
+    const std::size_t      plus  = (word[0] == '+') ? 1 : 0; // from_chars accepts no plus
     const char *const      begin = word.data() + plus;
     const char *const      end   = word.data() + word.size();
     double                 value = 0.;
     auto                   done  = std::from_chars(begin, end, value);
     if (done.ec == std::errc::result_out_of_range)
-      value = std::strtod(begin, nullptr); // tells too small (0) from too large (infinite)
+      value = std::strtod(begin, nullptr); // distinguishes too small (0) from too large (infinite)
     else if (done.ec != std::errc())
       done.ptr = nullptr;
     if (done.ptr != end)
@@ -225,7 +225,7 @@ namespace Exemplar
   void
   MshScanner::fail_expected(const std::string &expected, const std::string_view found) const
   {
-    // No complete file ends with a wrong word: this one is half a word.
+    // No complete file ends with a wrong word: this one is truncated.
     if (position == bytes.size() && bytes.find('$') != std::string::npos)
       fail_at_end();
     fail("expected " + expected + ", found " + in_quotes(found)

@@ -12,8 +12,8 @@ namespace Exemplar
 {
   namespace
   {
-    /// Lines of numbers, formatted without the locale and fast: a pose of a million
-    /// cells has 9 million of them.
+    /// Writer of lines of numbers, independent of the locale and fast: a pose of a million cells
+    /// has 9 million of them.
     class LineWriter
     {
     public:
@@ -27,7 +27,7 @@ namespace Exemplar
         end = std::to_chars(end, buffer.data() + buffer.size(), value).ptr;
       }
 
-      /// 17 significant digits give every double back.
+      /// Write a double with 17 significant digits, which reproduce it.
       void
       real(const double value)
       {

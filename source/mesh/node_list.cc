@@ -23,7 +23,7 @@ namespace Exemplar
   {
     const std::string npy_magic = "\x93NUMPY";
 
-    /// Whether what should name a file lists numbers.
+    /// Whether the name of a file is in fact a list of numbers.
     bool
     is_list(const std::string &name)
     {
@@ -104,7 +104,7 @@ namespace Exemplar
       void
       add_word(const std::string &word)
       {
-        // as numpy.savetxt writes: 1.000000000000000000e+00
+        // numpy.savetxt writes 1.000000000000000000e+00
         const bool   is_decimal = word.find_first_not_of("0123456789.eE+-") == std::string::npos;
         char        *end        = nullptr;
         const double number     = std::strtod(word.c_str(), &end);
@@ -210,7 +210,7 @@ namespace Exemplar
           = " List node numbers of the mesh file, separated by blanks, commas or line breaks; # "
             "begins a comment. Arrays of numpy.save() are read, too.";
       std::unordered_map<std::size_t, unsigned int> index;
-      std::size_t                                   minimum = 0; ///< of the mesh's node numbers
+      std::size_t                                   minimum = 0; ///< least node number of the mesh
       std::size_t                                   maximum = 0;
       std::set<unsigned int>                        nodes;
     };

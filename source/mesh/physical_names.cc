@@ -14,7 +14,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// The name that is written with or without quotes.
+    /// A name without its quotes, if any.
     std::string
     unquoted(const std::string &text)
     {

@@ -64,7 +64,7 @@ namespace Exemplar
       }
     }
 
-    /// Leave out the nodes for which `keep` is false.
+    /// Remove the nodes for which `keep` is false.
     void
     remove_nodes(MshFile &msh, const std::vector<bool> &keep)
     {
@@ -109,7 +109,7 @@ namespace Exemplar
       return corners;
     }
 
-    /// The number of the edge between two nodes, if there is one.
+    /// Index of the edge between two nodes, if it exists.
     std::optional<unsigned int>
     find_if_there(const std::vector<Edge> &edges, const std::size_t a, const std::size_t b)
     {

@@ -43,8 +43,8 @@ namespace Exemplar
       return B;
     }
 
-    /// Whether the second singular value is at most 1e-10 of the first: it is the square of
-    /// how far the points are off a line, and coordinates in files may have six digits.
+    /// Whether the second singular value is at most 1e-10 of the first: it is the square of the
+    /// points' relative distance from a line, and coordinates in files may have six digits.
     bool
     is_of_rank_one(const Matrix3<double> &B)
     {
@@ -52,7 +52,7 @@ namespace Exemplar
       return std::sqrt(contract(cof, cof)) <= 1e-10 * contract(B, B);
     }
 
-    /// A unit vector at a right angle to a unit vector.
+    /// A unit vector perpendicular to a unit vector.
     Tensor1
     perpendicular(const Tensor1 &u)
     {
@@ -95,7 +95,7 @@ namespace Exemplar
       if (v.norm() == 0.)
         return identity_matrix<double>();
       const Tensor1 u = B * (v / v.norm());
-      v               = transpose(B) * u; // a step of the power method, as B has the rank nearly
+      v               = transpose(B) * u; // a step of the power method, as B is nearly of rank one
       return smallest_rotation(v / v.norm(), u / u.norm());
     }
   } // namespace
@@ -194,7 +194,7 @@ namespace Exemplar
   {
     const RigidMotion part = interpolate(motion, progress);
     const Tensor1     arm  = points[point] - part.from;
-    // in this order nothing is left at progress 0, not even rounding
+    // in this order the sum is exactly 0 at progress 0
     return (part.to - part.from) + (part.rotation * arm - arm)
            + progress * (part.rotation * remainders[point]);
   }

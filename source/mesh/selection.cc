@@ -17,7 +17,7 @@ namespace Exemplar
   {
     constexpr int surface = 2, volume = 3; // dimensions of boundaries and regions
 
-    /// The id that a selection gives or names.
+    /// The id of a selection by id or name.
     unsigned int
     id_in(const SelectionWords &words,
           const int             dimension,
@@ -131,7 +131,7 @@ namespace Exemplar
       return { nodes.begin(), nodes.end() };
     }
 
-    /// `key` is SECTION/NAME/Select.
+    /// Throws UserError for a missing selection; `key` is SECTION/NAME/Select.
     [[noreturn]] void
     fail_unset(const std::string &key)
     {

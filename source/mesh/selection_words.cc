@@ -21,7 +21,7 @@ namespace Exemplar
 
   namespace
   {
-    /// A selection as it is written, out of one with brackets, commas or capitals.
+    /// The standard form of a selection with brackets, commas or capitals.
     std::string
     usual_form(const std::string &kind, std::string rest)
     {
@@ -46,7 +46,7 @@ namespace Exemplar
       return values;
     }
 
-    /// n numbers as they are written, out of those with commas; empty for other texts.
+    /// Advice on n numbers written with commas; empty for other texts.
     std::string
     remedy_of_numbers(const SelectionWords &words, const unsigned int n)
     {
@@ -60,7 +60,7 @@ namespace Exemplar
       return "";
     }
 
-    /// The box that an inequality means; empty for other texts.
+    /// The box equivalent to an inequality; empty for other texts.
     std::string
     box_of(const std::string &text)
     {

@@ -8,12 +8,13 @@
 
 namespace Exemplar
 {
-  /// Do something, and throw in all processes that share a body what it throws in the first of them:
-  /// UserError, SolverFailure, or std::runtime_error for anything else. All processes must call it.
+  /// Run `action` on every process that shares the body. If it throws on any of them, all throw
+  /// what the first of these threw: UserError, SolverFailure, or std::runtime_error for anything
+  /// else. Collective.
   void
   do_in_agreement(const Exchange &exchange, const std::function<void()> &action);
 
-  /// The same with what the root alone does.
+  /// As do_in_agreement(), with an action that the root alone runs.
   void
   do_at_root(const Exchange &exchange, const std::function<void()> &action);
 } // namespace Exemplar

@@ -2,8 +2,8 @@
 #ifndef exemplar_blas_h
 #define exemplar_blas_h
 
-// Two functions of BLAS for both precisions. Matrices are stored by columns, `stride` apart. No deal.II
-// header here: see matrix3.h.
+// Two functions of BLAS for both precisions. Matrices are stored by columns, `stride` apart. No
+// deal.II header here: see matrix3.h.
 
 extern "C"
 {
@@ -63,7 +63,7 @@ extern "C"
 
 namespace Exemplar::Blas
 {
-  /// Of the first entry, by columns.
+  /// A column-major matrix: address of its first entry, and leading dimension.
   template <typename Number>
   struct Matrix
   {
@@ -94,8 +94,8 @@ namespace Exemplar::Blas
              &B.stride, &beta, C.values, &C.stride);
   }
 
-  /// Overwrite the m x n matrix B by op(L)^-1 B, with `side` "L", or by B op(L)^-1 with "R"; L is a
-  /// lower triangle.
+  /// Overwrite the m x n matrix B by op(L)^-1 B, with `side` "L", or by B op(L)^-1 with "R"; L is
+  /// lower triangular.
   template <typename Number>
   void
   solve_triangle(const char          *side,

@@ -11,13 +11,13 @@
 
 namespace Exemplar
 {
-  /// Four numbers for each block of three rows: with the fourth, which means nothing, they fill a
-  /// register. Behind the own blocks of a process are copies of those of others.
+  /// A vector with four numbers for each block of three rows: the fourth is padding, so that a
+  /// block fills a register. Owned blocks come first, then ghosts, copies of blocks that other
+  /// processes own.
   using BlockVector = std::vector<float>;
 
-  /// A sparse matrix of blocks of 3 x 3 numbers in single precision, and a sum of outer products that
-  /// is not assembled. Each process has rows of it, and of its columns those that it owns and those of
-  /// others that occur in its rows.
+  /// A sparse matrix of 3 x 3 blocks in single precision, plus a sum of outer products that is not
+  /// assembled. Rows are distributed over the processes; columns are the owned ones, then ghosts.
   class BlockMatrix
   {
   public:
@@ -29,22 +29,22 @@ namespace Exemplar
       float value;
     };
 
-    /// For vectors with this halo, of four numbers a block.
+    /// A matrix without rows, whose columns are those of `halo`, with four numbers a block.
     explicit BlockMatrix(Halo halo);
 
-    /// The next row of blocks; sorts the entries.
+    /// Append a row of blocks; sorts the entries.
     void
     add_row(std::vector<Entry> &entries);
 
-    /// The same of whole blocks, whose columns ascend: nine numbers each, by columns.
+    /// Append a row of whole blocks, nine numbers each by columns, in ascending `columns`.
     void
     add_row(const std::vector<int> &columns, const std::vector<float> &blocks);
 
-    /// After the last row.
+    /// Finish the matrix after the last add_row().
     void
     finish();
 
-    /// A summand with the same rows.
+    /// Set the sum of outer products, which has the same rows.
     void
     set_products(OuterProductRows<float> new_products)
     {
@@ -57,14 +57,14 @@ namespace Exemplar
       return products;
     }
 
-    /// Blocks of rows.
+    /// Number of owned block rows.
     std::size_t
     n_rows() const
     {
       return start.size() - 1;
     }
 
-    /// A vector by columns, of zeros.
+    /// A zero vector of the column space, ghosts included.
     BlockVector
     zeros() const
     {
@@ -77,15 +77,15 @@ namespace Exemplar
       return column.size();
     }
 
-    /// On the diagonal, by columns; zero where there is none.
+    /// The diagonal block of a row, by columns; zero where the pattern has none.
     std::array<float, 9>
     diagonal_block(std::size_t row) const;
 
-    /// The numbers among all processes of the blocks here, of which the own begin with `first`.
+    /// Global numbers of the column blocks, owned ones first; these count from `first` on.
     std::vector<std::size_t>
     block_numbers(std::size_t first) const;
 
-    /// Call action(column, block) for the blocks of a row, without the products.
+    /// Call action(column, block) for the assembled blocks of a row, without the outer products.
     template <typename Action>
     void
     for_each_block(const std::size_t row, const Action &action) const
@@ -94,7 +94,7 @@ namespace Exemplar
         action(column[entry], &values[9 * static_cast<std::size_t>(entry)]);
     }
 
-    /// result = A x; for all products x gets the values of others.
+    /// result = A x. This and the products below update the ghosts of x.
     void
     multiply(BlockVector &x, BlockVector &result) const;
 
@@ -106,11 +106,11 @@ namespace Exemplar
     void
     find_residual(const BlockVector &b, BlockVector &x, BlockVector &result) const;
 
-    /// result = A^T x, the own blocks, without the products.
+    /// result = A^T x on the owned columns, without the outer products.
     void
     multiply_transposed(const BlockVector &x, BlockVector &result) const;
 
-    /// With three by three numbers for each row in `inverse_diagonal`, D^-1,
+    /// A relaxation step with D^-1, one 3 x 3 block for each block row, in `inverse_diagonal`:
     /// change = keep * change + take * D^-1 (b - A x), then x += change.
     void
     correct(const std::vector<float> &inverse_diagonal,
@@ -120,34 +120,34 @@ namespace Exemplar
             BlockVector              &x,
             BlockVector              &change) const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
   private:
-    /// The owners' values to all who need them.
+    /// Update the ghosts of a vector.
     void
     share(BlockVector &vector) const;
 
-    /// Call action(row, product) for the rows of a product.
+    /// Call action(row, (A x)_row) for all rows, outer products included.
     template <typename Action>
     void
     for_each_product(BlockVector &x, const Action &action) const;
 
     Halo                    halo;
     std::vector<int>        start, column;
-    std::vector<float>      values; ///< 9 a block, and some behind, as registers of four are read
+    std::vector<float>      values; ///< 9 a block; padded, as registers of four are read
     OuterProductRows<float> products;
   };
 
-  /// Reads a row of a matrix of numbers, by its own number: columns by local number, and the values
-  /// there. Returns how many they are, and makes the vectors longer where they are too short.
+  /// Reads a scalar row, by local number: local column numbers and values. Returns the number of
+  /// entries, and enlarges the vectors where they are too short.
   using ReadRow
       = std::function<int(int row, std::vector<int> &columns, std::vector<double> &values)>;
 
-  /// A copy of a matrix of numbers with `n_rows` rows of blocks in this process. Blocks of columns are
-  /// numbered from `firsts` on, as first_numbers() tells; `columns` are the numbers among all
-  /// processes of the columns of numbers here, the own ones first.
+  /// Copy a scalar matrix with `n_rows` block rows in this process into blocks. Column blocks are
+  /// numbered globally from `firsts` on, see first_numbers(); `columns` are the global numbers of
+  /// the scalar columns, owned ones first.
   BlockMatrix
   make_block_matrix(std::size_t                     n_rows,
                     const std::vector<std::size_t> &firsts,
@@ -155,7 +155,7 @@ namespace Exemplar
                     const ReadRow                  &read_row,
                     const Exchange                 &exchange);
 
-  /// result = factor * D^-1 x, with three by three numbers for each block of x in D^-1.
+  /// result = factor * D^-1 x, where D^-1 has a 3 x 3 block for each block of x.
   void
   multiply_by_blocks(const std::vector<float> &inverse_diagonal,
                      const BlockVector        &x,

@@ -12,14 +12,13 @@
 
 namespace Exemplar
 {
-  /// The quadratic form of k weights, what couples them to the positions, and the m linear
-  /// constraints on them. They are m groups of k/m consecutive weights, and N has a row a group,
-  /// of ones where the weights are the group's.
+  /// The quadratic form of k weights and the m linear constraints on them. The weights are m groups
+  /// of k/m consecutive ones, and row g of N has ones at the weights of group g.
   struct WeightForm
   {
     dealii::FullMatrix<double> H;       ///< k x k
     dealii::FullMatrix<double> N;       ///< m x k
-    std::vector<unsigned int>  coupled; ///< the weights whose column of G is not zero, ascending
+    std::vector<unsigned int>  coupled; ///< weights with a non-zero column of G, ascending
   };
 
   /// A vector of the bordered system: a right side or a solution, in three parts.
@@ -36,13 +35,13 @@ namespace Exemplar
   ///     [ -G^T   H   N^T ] [ dw ] = [ r_w ]
   ///     [  0     N    0  ] [ l  ]   [ r_c ]
   ///
-  /// Without weights to find the form is empty, and only A is there.
+  /// Without unknown weights the form is empty, and A is the whole system.
   class BorderedSystem
   {
   public:
     virtual ~BorderedSystem() = default;
 
-    /// Of A.
+    /// Traits of the operator A.
     virtual OperatorTraits
     traits() const = 0;
 
@@ -56,15 +55,15 @@ namespace Exemplar
     matrix_values()
         = 0;
 
-    /// As SpdOperator::outer_products().
+    /// Further summand of A, as SpdOperator::outer_products().
     virtual OuterProducts *
     outer_products()
     {
       return nullptr;
     }
 
-    /// The columns of G of the coupled weights, one after the other, to be overwritten before
-    /// factorize() and left as they are until the next.
+    /// The non-zero columns of G, one after the other, to be overwritten before factorize() and not
+    /// changed until the next one.
     std::vector<double> &
     columns()
     {
@@ -77,7 +76,7 @@ namespace Exemplar
       return G;
     }
 
-    /// The weights' part; empty without weights to find.
+    /// The form of the weights; empty without unknown weights.
     const WeightForm &
     weight_form() const
     {
@@ -90,40 +89,40 @@ namespace Exemplar
     factorize(const Vector &positions)
         = 0;
 
-    /// As SpdOperator::factorize_roughly().
+    /// Factorize to a few digits, as SpdOperator::factorize_roughly().
     virtual void
     factorize_roughly(const Vector &positions)
     {
       factorize(positions);
     }
 
-    /// Overwrite the right side by the solution, with changes of the weights as these limits leave
-    /// them. Throws SolverFailure if the system is singular.
+    /// Overwrite the right side by the solution, with changes of weights within `limits`. Throws
+    /// SolverFailure if the system is singular.
     virtual void
     solve(BorderedVector &right_side, const WeightLimits &limits)
         = 0;
 
-    /// Overwrite columns by A^-1 times them; throws SolverFailure if there is no factor of A alone.
+    /// Overwrite columns C by A^-1 C; throws SolverFailure if A has no factor of its own.
     virtual void
     apply_inverse(std::vector<double> &columns)
         = 0;
 
-    /// Do now what else the first solve() would do: to find the columns Z = A^-1 G. They are found
-    /// beside one right side, as there, because the number of columns decides in which order BLAS
-    /// sums.
+    /// Compute the columns Z = A^-1 G now, instead of in the first solve(). As there they are
+    /// solved for together with one right side, because the order of BLAS's sums depends on the
+    /// number of columns.
     virtual void
     prepare()
     {
     }
 
-    /// As SpdOperator::twin().
+    /// An independent system of the same structure, as SpdOperator::twin().
     virtual std::unique_ptr<BorderedSystem>
     twin() const
     {
       return nullptr;
     }
 
-    /// As SpdOperator::keep().
+    /// An approximate inverse of A that stays, as SpdOperator::keep().
     virtual std::unique_ptr<KeptInverse>
     keep() const = 0;
 
@@ -142,7 +141,8 @@ namespace Exemplar
     dealii::FullMatrix<double> schur;
   };
 
-  /// H - G^T Z, Eq. (11), with n entries of this process in each column.
+  /// H - G^T Z, Eq. (11). Columns of G and Z have n entries in this process; sums are over all
+  /// processes.
   dealii::FullMatrix<double>
   make_schur_complement(const WeightForm          &form,
                         const std::vector<double> &G,
@@ -150,14 +150,15 @@ namespace Exemplar
                         std::size_t                n,
                         const Exchange            &exchange);
 
-  /// Block elimination: one call for A^-1 [r_x, G], then the dense Schur complement bordered by N.
+  /// Block elimination: one solve for A^-1 [r_x, G], then the dense Schur complement bordered by N.
   /// `matrix` has its pattern; `form` and `exchange` must outlive the system.
   std::unique_ptr<BorderedSystem>
   make_block_system(std::unique_ptr<SpdOperator> matrix,
                     const WeightForm            &form,
                     const Exchange              &exchange);
 
-  /// The whole bordered matrix at once by UMFPACK; for checking. `form` must outlive the system.
+  /// The bordered matrix factorised as a whole by UMFPACK; for checking. `form` must outlive the
+  /// system.
   std::unique_ptr<BorderedSystem>
   make_umfpack_system(const SymmetricPattern &pattern, const WeightForm &form);
 } // namespace Exemplar

@@ -4,8 +4,8 @@
 
 namespace Exemplar
 {
-  /// The factors of Chebyshev's iteration for eigenvalues between two numbers: a step is `keep`
-  /// times the last and `take` times the preconditioned residual.
+  /// Factors of Chebyshev's iteration for a spectrum in [minimum, maximum]: each update is `keep`
+  /// times the last update plus `take` times the preconditioned residual.
   class ChebyshevFactors
   {
   public:

@@ -10,7 +10,7 @@
 
 namespace Exemplar
 {
-  /// CHOLMOD's state, set for supernodal factors and silence.
+  /// CHOLMOD's workspace, set to supernodal factors and no output.
   class CholmodCommon
   {
   public:
@@ -34,7 +34,7 @@ namespace Exemplar
       return &common;
     }
 
-    /// Throws SolverFailure if CHOLMOD's last call, its `what`, has failed.
+    /// Throws SolverFailure, naming the operation `what`, if CHOLMOD's last call has failed.
     void
     check(const std::string &what) const;
 
@@ -42,18 +42,19 @@ namespace Exemplar
     cholmod_common common{};
   };
 
-  /// The matrix with these values, which may be null, as CHOLMOD sees it; nothing is copied.
+  /// CHOLMOD's view of the matrix with these values, which may be null; nothing is copied.
   cholmod_sparse
   cholmod_view(const SymmetricPattern &pattern, const double *values);
 
-  /// CHOLMOD's analysis of a pattern, in this order of elimination, which it refines, or, if that is empty, in the one of
-  /// which it expects the least fill. The factor is the caller's to free. Throws SolverFailure.
+  /// CHOLMOD's symbolic analysis of a pattern in this order of elimination, which it refines, or, if
+  /// that is empty, in the ordering with the least expected fill. The caller frees the factor. Throws
+  /// SolverFailure.
   cholmod_factor *
   analyze(const SymmetricPattern &pattern,
           CholmodCommon          &common,
           const std::vector<int> &order = {});
 
-  /// The structure of the factor that CHOLMOD has analysed for a pattern.
+  /// The structure of the factor in CHOLMOD's analysis of a pattern.
   FactorStructure
   factor_structure(const SymmetricPattern &pattern,
                    const cholmod_factor   &factor,

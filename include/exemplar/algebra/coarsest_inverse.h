@@ -8,9 +8,8 @@
 
 namespace Exemplar
 {
-  /// The inverse of the matrix of the coarsest level of multigrid as a dense matrix in single
-  /// precision, of which a process has its rows. What rows that depend on others would determine
-  /// is zero.
+  /// The dense inverse of the coarsest multigrid matrix in single precision, distributed by rows.
+  /// Rows and columns that Cholesky's factorisation finds linearly dependent are zero.
   class CoarsestInverse
   {
   public:
@@ -20,7 +19,7 @@ namespace Exemplar
     void
     solve(const BlockVector &right_side, BlockVector &solution) const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const
     {

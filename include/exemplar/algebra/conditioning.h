@@ -6,23 +6,23 @@
 
 namespace Exemplar
 {
-  /// A quadratic form of weights, which come in groups of k one after the other, as one of the
-  /// differences of each weight to the first of its group. Only these matter where the sums
-  /// of the groups are given.
+  /// The quadratic form restricted to differences: weights come in groups of k consecutive ones,
+  /// and each is replaced by its difference to the first of its group. Where group sums are given,
+  /// only these differences are free.
   dealii::FullMatrix<double>
   form_of_differences(const dealii::FullMatrix<double> &form, unsigned int k);
 
-  /// Ratio of the greatest to the least eigenvalue of a positive semidefinite matrix, whose
-  /// rows and columns are first scaled to a diagonal of ones. 1 if it is empty, infinity if it
-  /// is not positive definite.
+  /// Ratio of the greatest to the least eigenvalue of a positive semidefinite matrix after
+  /// symmetric scaling to a unit diagonal. 1 if it is empty, infinity if it is not positive
+  /// definite.
   double
   condition_number(const dealii::FullMatrix<double> &matrix);
 
-  /// How well the systems of a step are conditioned; infinity: not positive definite.
+  /// Condition numbers of the linear systems of a step; infinity: not positive definite.
   struct Conditioning
   {
-    double matrix = 0.; ///< of A, a lower bound; 0: not known
-    double schur  = 0.; ///< of the Schur complement on differences of weights; 0: there is none
+    double matrix = 0.; ///< lower bound of that of A; 0: not known
+    double schur  = 0.; ///< that of the Schur complement on differences of weights; 0: none
   };
 } // namespace Exemplar
 

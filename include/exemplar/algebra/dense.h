@@ -11,10 +11,10 @@
 
 namespace Exemplar
 {
-  /// Overwrite A's lower triangle, all that it sees, by its Cholesky factor L, A = L L^T.
-  /// take_pivot(row, pivot, the diagonal entry of A) returns what to take for a pivot: it, or another
-  /// one; zero where the row is to count as one that depends on those before, of which the column
-  /// of L is zero then; or a negative number to end. Returns whether it came to the end.
+  /// Overwrite A's lower triangle, the only part read, by its Cholesky factor L, A = L L^T.
+  /// take_pivot(row, pivot, the diagonal entry of A) returns the pivot to use: the given or another
+  /// one; zero for a row to count as linearly dependent, whose column of L becomes zero; or a
+  /// negative number to stop. Returns whether the factorisation was completed.
   template <typename TakePivot>
   bool
   factorize_by_cholesky(dealii::FullMatrix<double> &A, const TakePivot &take_pivot)
@@ -39,29 +39,28 @@ namespace Exemplar
     return true;
   }
 
-  /// Overwrite b by the solution of L L^T x = b, which is zero at the rows that depend on others.
+  /// Overwrite b by the solution of L L^T x = b, with zeros at rows marked as dependent.
   void
   solve_with_factor(const dealii::FullMatrix<double> &L, std::vector<double> &b);
 
-  /// Solve A x = b in place by Cholesky, seeing only A's lower triangle; false if A is not
+  /// Solve A x = b in place by Cholesky's factorisation of A's lower triangle; false if A is not
   /// positive definite.
   bool
   solve_by_cholesky(dealii::FullMatrix<double> &A, std::vector<double> &b);
 
-  /// The row at which Cholesky's factorisation finds the least pivot relative to its
-  /// diagonal entry: that depends most on the rows before it.
+  /// The row with the least pivot of Cholesky's factorisation relative to its diagonal entry: the
+  /// one nearest to a linear combination of the rows before it.
   struct MinPivot
   {
     unsigned int row   = 0;
     double       ratio = 1.; ///< 0 if the matrix is singular
   };
 
-  /// Of a positive semidefinite matrix; pivots of at most `rounding` count as zero.
+  /// Least pivot of a positive semidefinite matrix; pivots of at most `rounding` count as zero.
   MinPivot
   min_pivot(dealii::FullMatrix<double> matrix, double rounding);
 
-  /// Number of independent rows (and columns), by Gauss elimination with complete pivoting
-  /// that ends at a pivot below `tolerance`.
+  /// Rank by Gauss elimination with complete pivoting, which ends at a pivot below `tolerance`.
   unsigned int
   rank(dealii::FullMatrix<double> matrix, double tolerance);
 } // namespace Exemplar

@@ -10,13 +10,13 @@
 
 namespace Exemplar
 {
-  /// The rows that a process has of a matrix: three for every node that it owns and that is not held
-  /// as a whole. Among all processes they are numbered one process after the other.
+  /// The matrix rows that a process owns: three for every node that it owns and that is not wholly
+  /// held. Global numbers are consecutive for each process, one process after the other.
   class RowNumbers
   {
   public:
-    /// `free_dofs` must outlive this. Throws SolverFailure, in all processes, if there are more rows
-    /// than an int counts.
+    /// `free_dofs` must outlive this. Throws SolverFailure, in all processes, if there are more
+    /// rows than an int counts.
     explicit RowNumbers(const FreeDofs &free_dofs);
 
     unsigned int
@@ -25,7 +25,7 @@ namespace Exemplar
       return 3 * own_nodes.size();
     }
 
-    /// Number of the first of the own rows.
+    /// Global number of the first owned row.
     int
     first_row() const;
 
@@ -35,39 +35,40 @@ namespace Exemplar
       return global_row >= first_row() && global_row < first_row() + static_cast<int>(n_rows());
     }
 
-    /// The process that has a row.
+    /// The process that owns a row.
     unsigned int
     owner(int global_row) const;
 
-    /// With the processes that have the other rows.
+    /// The exchange with the processes that own the other rows.
     const Exchange &
     exchange() const
     {
       return with_others;
     }
 
-    /// Those with own rows.
+    /// The nodes with owned rows.
     const std::vector<unsigned int> &
     nodes() const
     {
       return own_nodes;
     }
 
-    /// The own row, by local number, of each unknown.
+    /// Local number of the owned row of each unknown.
     const std::vector<int> &
     row_of() const
     {
       return own_row_of;
     }
 
-    /// Of all free degrees of freedom of this process' nodes, FreeDofs::local_list().
+    /// Global row of each entry of FreeDofs::local_list(), the free degrees of freedom of this
+    /// process' nodes.
     const std::vector<int> &
     global_rows() const
     {
       return rows_of_free;
     }
 
-    /// As first_numbers() of the nodes with rows.
+    /// first_numbers() of the nodes with owned rows.
     const std::vector<std::size_t> &
     first_nodes() const
     {
@@ -81,19 +82,19 @@ namespace Exemplar
     std::vector<std::size_t>  firsts;
   };
 
-  /// A sparse matrix by rows, one after the other.
+  /// A sparse matrix in compressed row storage.
   struct CsrMatrix
   {
     std::vector<int>    row_start; ///< one more than there are rows
-    std::vector<int>    column;    ///< of each entry, ascending in a row
+    std::vector<int>    column;    ///< column of each entry, ascending in a row
     std::vector<double> value;
   };
 
-  /// A symmetric sparse matrix by rows, to which the cells of several processes add: no library's, but
-  /// in the form that libraries take. Columns have local numbers: those of the own rows, then those
-  /// of the other nodes that they are coupled with, three a node. Not all of these are nodes of this
-  /// process' cells: the cells of others couple shared nodes with nodes that are theirs alone. In
-  /// the row of a held component is the unit matrix.
+  /// A symmetric sparse matrix distributed by rows, to which the cells of several processes add, in
+  /// a format that libraries take without copying. Local column numbers are those of the owned
+  /// rows, then those of the other nodes that these are coupled with, three a node. Not all of the
+  /// latter are nodes of this process' cells: other processes' cells couple shared nodes with nodes
+  /// that are theirs alone. Rows of held components are rows of the unit matrix.
   class DistributedRows
   {
   public:
@@ -101,14 +102,15 @@ namespace Exemplar
     /// or multiply.
     explicit DistributedRows(const FreeDofs &free_dofs) : numbers(free_dofs) {}
 
-    /// The lower triangle of what this process' cells couple; it must outlive this. Throws
-    /// SolverFailure, in all processes, if there are more entries than an int counts.
+    /// Set the pattern: the lower triangle of the couplings of this process' cells, which must
+    /// outlive this. Throws SolverFailure, in all processes, if there are more entries than an int
+    /// counts.
     void
     reinit(const SymmetricPattern &lower_pattern);
 
-    /// From the values of the lower triangle, of which each process has its cells' part. Throws
-    /// SolverFailure, in all processes, if an entry of the diagonal is not positive, together with what
-    /// summands that are not assembled have there, by own row.
+    /// Sum up the values of the lower triangle, to which each process gives its cells' part. Throws
+    /// SolverFailure, in all processes, if a diagonal entry is not positive, including
+    /// `further_diagonal`, by owned row, of summands that are not assembled.
     void
     fill(const std::vector<double> &lower_values, const std::vector<double> &further_diagonal = {});
 
@@ -116,11 +118,11 @@ namespace Exemplar
     void
     multiply(const Vector &vector, Vector &image) const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
-    /// By local number.
+    /// Global number of each local column.
     std::vector<int>
     global_columns() const;
 
@@ -130,7 +132,7 @@ namespace Exemplar
       return numbers;
     }
 
-    /// The own rows, with columns by local number. A library may point at it until reinit().
+    /// The owned rows, with local column numbers. A library may point at it until reinit().
     CsrMatrix &
     get_matrix()
     {
@@ -142,8 +144,8 @@ namespace Exemplar
     template <typename Number>
     using ByProcess = std::map<unsigned int, std::vector<Number>>;
 
-    /// Row and column, one after the other, of what this process' cells add to the rows of others;
-    /// remembers where these values are.
+    /// Row and column numbers, alternating, of this process' contributions to other processes'
+    /// rows; remembers the positions of these values.
     ByProcess<int>
     list_foreign();
 
@@ -157,11 +159,11 @@ namespace Exemplar
     void
     insert_couplings(const ByProcess<int> &received);
 
-    /// Sort the columns of each row, and leave each once.
+    /// Sort the columns of each row, and remove duplicates.
     void
     tidy_rows();
 
-    /// Where the values go that other processes send.
+    /// Find where the values that other processes send are added.
     void
     find_places(const ByProcess<int> &received);
 
@@ -174,18 +176,17 @@ namespace Exemplar
     void
     check_diagonal(const std::vector<double> &further_diagonal) const;
 
-    /// Of a row and a column that there are.
+    /// Position of an entry of the pattern.
     int
     place_of(int row, int local_column) const;
 
-    /// Call action(row, column, entry) for all entries of both triangles of what this process' cells
-    /// couple, by the numbers of `by`; in each row the columns ascend by the order of the degrees of
-    /// freedom.
+    /// Call action(row, column, entry) for all entries of both triangles of this process' pattern,
+    /// numbered by `by`; in each row the columns ascend by degree of freedom.
     template <typename Action>
     void
     for_each_entry(const std::vector<int> &by, const Action &action) const;
 
-    /// Call action(row, column), by local numbers, for all couplings of own rows.
+    /// Call action(row, column), by local numbers, for all couplings of owned rows.
     template <typename Action>
     void
     for_each_coupling(const ByProcess<int> &received, const Action &action) const;
@@ -193,10 +194,10 @@ namespace Exemplar
     const RowNumbers         numbers;
     CsrMatrix                matrix;
     const SymmetricPattern  *pattern = nullptr;
-    std::vector<int>         local_columns;      ///< of each free degree of freedom of the nodes
-    std::vector<std::size_t> other_nodes;        ///< their numbers, ascending
-    ByProcess<int>           foreign_entries;    ///< of the pattern, parts of the rows of others
-    ByProcess<int>           places_of_received; ///< among the values, of what others send
+    std::vector<int>         local_columns;      ///< columns of FreeDofs::local_list()
+    std::vector<std::size_t> other_nodes;        ///< global numbers of ghost nodes, ascending
+    ByProcess<int>           foreign_entries;    ///< entries of the pattern in others' rows
+    ByProcess<int>           places_of_received; ///< positions among the values, by sender
     Halo                     halo;
   };
 } // namespace Exemplar

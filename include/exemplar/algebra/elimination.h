@@ -11,13 +11,13 @@
 
 namespace Exemplar
 {
-  /// One factorisation by fronts, from the entries of A to the panels of L.
+  /// One multifrontal factorisation, from the entries of A to the panels of L.
   template <typename Number>
   class Elimination
   {
   public:
-    /// Of the matrix with these entries times `scale`. `panels` have room for structure.n_values()
-    /// numbers and a register's more.
+    /// Factorises `scale` times the matrix with these entries. `panels` have room for
+    /// structure.n_values() numbers plus one register.
     Elimination(const FactorStructure     &structure,
                 const std::vector<double> &entries,
                 double                     scale,
@@ -28,7 +28,7 @@ namespace Exemplar
     run(int n_threads);
 
   private:
-    /// What a front leaves to its parent: a square, of which the lower triangle is there.
+    /// The update matrix of a front for its parent: a square, of which the lower triangle is set.
     using Square = std::unique_ptr<Number[]>;
 
     void
@@ -37,7 +37,8 @@ namespace Exemplar
     void
     gather_entries(int s);
 
-    /// Add what a child leaves, columns `begin` to `end` - 1 of it, to the panel or the square.
+    /// Extend-add columns `begin` to `end` - 1 of a child's update matrix to the panel or the
+    /// square.
     void
     add_child(int child, bool to_panel, int s, int n_threads);
 

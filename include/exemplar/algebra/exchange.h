@@ -13,13 +13,13 @@
 
 namespace Exemplar
 {
-  /// What processes that share a body tell each other. Each cell belongs to one process, so what is
-  /// summed over cells is a sum over processes. A node belongs to all processes with a cell at it,
-  /// and one of them owns it. Vectors by degree of freedom hold the whole body's values at the nodes
-  /// of a process, the same in all; while they are summed cell by cell, they hold its own part
-  /// until assemble(). This base is the exchange of one process, which has nobody to talk to.
+  /// Communication between processes that share a body. Each cell belongs to one process, so sums
+  /// over cells are sums over processes. A node belongs to all processes with a cell at it, and one
+  /// of them owns it. Vectors by degree of freedom hold the whole body's values at the nodes of a
+  /// process, the same in all; during assembly they hold its own part until assemble(). This base
+  /// class is the exchange of a single process.
   ///
-  /// Functions that talk must be called by all processes, in the same order.
+  /// Functions that communicate are collective: all processes must call them, in the same order.
   class Exchange
   {
   public:
@@ -37,7 +37,7 @@ namespace Exemplar
       return 1;
     }
 
-    /// Of the processes.
+    /// The communicator of the processes that share the body.
     virtual MPI_Comm
     communicator() const
     {
@@ -51,14 +51,14 @@ namespace Exemplar
       return process() == 0;
     }
 
-    /// Give all others bytes of the root, who packs them.
+    /// Broadcast: the root packs bytes, all others unpack them.
     virtual void
     give_from_root(const std::function<std::string()> & /*pack*/,
                    const std::function<void(const std::string &)> & /*unpack*/) const
     {
     }
 
-    /// Add up what the processes give; the same on all of them, bit for bit.
+    /// Replace `own` by the sum over processes; bitwise the same on all of them.
     virtual void
     sum(double * /*own*/, std::size_t /*n*/) const
     {
@@ -84,7 +84,7 @@ namespace Exemplar
       return own;
     }
 
-    /// Whether it is so in any process.
+    /// Whether `own` is true on any process.
     bool
     any(const bool own) const
     {
@@ -98,28 +98,29 @@ namespace Exemplar
       return own;
     }
 
-    /// Nodes of the whole body, of which this process has `own`.
+    /// Number of nodes of the whole body; this process has `own`.
     virtual unsigned int
     n_nodes(const unsigned int own) const
     {
       return own;
     }
 
-    /// What all processes give, one after the other.
+    /// The vectors of all processes, concatenated in the order of processes.
     virtual std::vector<std::size_t>
     collect(std::vector<std::size_t> own) const
     {
       return own;
     }
 
-    /// The same where all know how many each gives, and need not tell: as first_numbers() of them.
+    /// The vectors of all processes, concatenated; `firsts`, as first_numbers(), holds where each
+    /// begins.
     virtual std::vector<float>
     collect(std::vector<float> own, const std::vector<std::size_t> & /*firsts*/) const
     {
       return own;
     }
 
-    /// The number in this process of a node of the whole body, or -1 if it is not there.
+    /// Local number of a node of the whole body, or -1 if this process does not have it.
     virtual int
     node_here(const unsigned int in_whole) const
     {
@@ -133,7 +134,7 @@ namespace Exemplar
       return true;
     }
 
-    /// Of a field with n numbers a node that is a part of the sum over cells, make the sum.
+    /// Replace a partial sum over own cells, n numbers a node, by the sum over all cells.
     virtual void
     assemble(double * /*field*/, unsigned int /*n*/) const
     {
@@ -150,21 +151,21 @@ namespace Exemplar
     {
     }
 
-    /// The owners' values to all who share a node; three numbers a node.
+    /// Overwrite values at shared nodes by their owners'; three numbers a node.
     virtual void
     share(Vector & /*field*/) const
     {
     }
 
-    /// The product of two fields of assembled values, by degree of freedom.
+    /// Scalar product of two assembled fields, by degree of freedom.
     virtual double
     product(const Vector &a, const Vector &b) const
     {
       return a * b;
     }
 
-    /// A field with n numbers a node, for all nodes of the body in the order of one process. With
-    /// `everywhere` all processes have it, else the root alone.
+    /// Gather a field with n numbers a node for the whole body, in the order of nodes of a single
+    /// process. With `everywhere` on all processes, else at the root alone.
     virtual std::vector<double>
     whole(const double      *field,
           const unsigned int n,
@@ -174,7 +175,7 @@ namespace Exemplar
       return { field, field + n * n_nodes };
     }
 
-    /// What of a whole() this process has; talks to nobody.
+    /// The entries of a whole() at this process' nodes; no communication.
     virtual std::vector<double>
     part(std::vector<double> whole, unsigned int /*n*/) const
     {
@@ -197,18 +198,18 @@ namespace Exemplar
     return -exchange.max(-own);
   }
 
-  /// What a process has summed over its own cells and nodes, and is not yet the body's: to become that
-  /// it must be given to a function complete(exchange, sums), which makes the sum over processes.
+  /// A partial sum over a process' own cells and nodes. A function complete(exchange, sums) turns
+  /// it into the sum over all processes.
   template <typename Field>
   class OwnSums
   {
   public:
     OwnSums() = default;
 
-    /// From these on.
+    /// Starts from these values.
     explicit OwnSums(Field start) : sums(std::move(start)) {}
 
-    /// To add to them.
+    /// Access for adding.
     Field *
     operator->()
     {
@@ -237,7 +238,8 @@ namespace Exemplar
     Field sums;
   };
 
-  /// Do what the root does alone; talks to nobody. do_at_root() throws in all processes what it throws.
+  /// Run `action` on the root alone, without communication. do_at_root() also throws its exception
+  /// on all processes.
   template <typename Action>
   void
   at_root(const Exchange &exchange, const Action &action)
@@ -246,7 +248,7 @@ namespace Exemplar
       action();
   }
 
-  /// Sums by degree of freedom.
+  /// Complete sums by degree of freedom, Exchange::assemble().
   inline Vector
   complete(const Exchange &exchange, OwnSums<Vector> &&sums)
   {

@@ -5,21 +5,21 @@
 #include <cstddef>
 #include <vector>
 
-// Where the entries of a Cholesky factor stand. No deal.II header here: see matrix3.h.
+// Symbolic structure of a sparse Cholesky factor. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// L of P A P^T = L L^T by supernodes, consecutive columns with the same rows below their triangle.
-  /// The columns of a supernode are a dense panel, stored one after the other; the supernode's own
-  /// columns are its first rows. A supernode's parent in the elimination tree is that of its first row
-  /// below the triangle; children come before their parents.
+  /// The factor L of P A P^T = L L^T by supernodes, consecutive columns with the same rows below
+  /// their triangle. The columns of a supernode are a dense panel, stored by columns; its first
+  /// rows are the supernode's own columns. The parent of a supernode in the elimination tree is the
+  /// supernode of its first row below the triangle; children come before parents.
   ///
-  /// Subtrees of the tree have no row in common but rows of the supernodes above them, the top. So that
-  /// each may be solved for alone, vectors have a tail: entry n + i stands for row tail[i], as one
-  /// subtree sees it.
+  /// Disjoint subtrees of the elimination tree share no rows but those of the supernodes above
+  /// them, the top. So that each can be solved independently, vectors have a tail: entry n + i is
+  /// one subtree's private copy of row tail[i].
   struct FactorStructure
   {
-    /// Supernodes begin to end - 1 and their entries of the tail.
+    /// Supernodes begin to end - 1, and their range in the tail.
     struct Subtree
     {
       int begin, end;
@@ -56,26 +56,26 @@ namespace Exemplar
       return first_value.back();
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
     std::vector<int>         permutation;  ///< row i of L is row permutation[i] of A
-    std::vector<int>         first_column; ///< of each supernode, and n
-    std::vector<std::size_t> first_row;    ///< where its rows begin in `rows`, and the end
-    std::vector<std::size_t> first_value;  ///< where its panel begins among the values, and the end
-    std::vector<int>         rows;         ///< ascending; those of the top in the tail for subtrees
-    std::vector<int>         parent;       ///< of each supernode; -1: none
-    std::vector<int> place_in_parent;     ///< of each of `rows` below the triangle: its place among
-                                          ///< the rows of the parent
-    std::vector<std::size_t> first_entry; ///< where a supernode's entries of A begin, and the end
-    std::vector<int>         entry;       ///< position of the entry on A's pattern
-    std::vector<int>         place;       ///< where it stands in the panel
-    std::vector<Subtree>     subtrees;    ///< ascending
-    std::vector<int>         top;         ///< the supernodes above them, ascending
+    std::vector<int>         first_column; ///< first column of each supernode, and n
+    std::vector<std::size_t> first_row;    ///< begin of its rows in `rows`, and the end
+    std::vector<std::size_t> first_value;  ///< begin of its panel among the values, and the end
+    std::vector<int>         rows;         ///< ascending; top rows are in the tail for subtrees
+    std::vector<int>         parent;       ///< parent of each supernode; -1: none
+    std::vector<int> place_in_parent;      ///< position of each of `rows` below the triangle among
+                                           ///< the parent's rows
+    std::vector<std::size_t> first_entry;  ///< begin of a supernode's entries of A, and the end
+    std::vector<int>         entry;        ///< position of the entry on A's pattern
+    std::vector<int>         place;        ///< its position in the panel
+    std::vector<Subtree>     subtrees;     ///< ascending
+    std::vector<int>         top;          ///< the supernodes above them, ascending
     std::vector<int>         tail;
-    int                      max_rows     = 0;  ///< of a supernode
-    double                   n_operations = 0.; ///< of a factorisation
+    int                      max_rows     = 0;  ///< greatest number of rows of a supernode
+    double                   n_operations = 0.; ///< operations of a factorisation
   };
 } // namespace Exemplar
 

@@ -10,9 +10,9 @@
 namespace Exemplar
 {
   /// The degrees of freedom that a solve determines. Degree of freedom 3 i + c is component c of
-  /// node i; held ones are no unknowns of the linear system. Processes that share a body assemble
-  /// for all free ones that they have, of which each is the unknown of one process. Which are held
-  /// may change between steps.
+  /// node i; held ones are eliminated from the linear system. Each process assembles for all free
+  /// ones at its nodes, and each is an unknown of exactly one process. Held ones may change between
+  /// steps.
   class FreeDofs
   {
   public:
@@ -27,19 +27,18 @@ namespace Exemplar
       reinit(held_dofs);
     }
 
-    /// From now on these are held. All processes must call this.
+    /// Replace the held degrees of freedom. Collective.
     void
     reinit(const std::vector<unsigned int> &held_dofs);
 
-    /// How often reinit() has been called: whoever remembers this number knows whether what he has
-    /// made of the degrees of freedom is still theirs.
+    /// Number of calls of reinit(), by which dependent data notice that they are outdated.
     unsigned int
     version() const
     {
       return n_reinits;
     }
 
-    /// Unknowns of this process.
+    /// Number of unknowns of this process.
     unsigned int
     size() const
     {
@@ -52,22 +51,22 @@ namespace Exemplar
       return index.size();
     }
 
-    /// With the processes that have the other degrees of freedom of the body.
+    /// The exchange with the processes that have the other degrees of freedom of the body.
     const Exchange &
     exchange() const
     {
       return with_others;
     }
 
-    /// The unknowns of this process in ascending order: all free degrees of freedom of its nodes,
-    /// unless others own some of these.
+    /// The unknowns of this process in ascending order: the free degrees of freedom of its nodes
+    /// without those that other processes own.
     const std::vector<unsigned int> &
     list() const
     {
       return own_dofs;
     }
 
-    /// Number in list(), or `held` for what is no unknown of this process.
+    /// Index in list(), or `held` for a degree of freedom that is no unknown of this process.
     int
     unknown_index(const unsigned int dof) const
     {
@@ -82,18 +81,18 @@ namespace Exemplar
       return dofs;
     }
 
-    /// Number in local_list(), or `held`.
+    /// Index in local_list(), or `held`.
     int
     free_index(const unsigned int dof) const
     {
       return index[dof];
     }
 
-    /// The greatest magnitude of a field at the unknowns of all processes, which all must call.
+    /// The greatest magnitude of a field at the unknowns of all processes. Collective.
     double
     max_magnitude(const Vector &field) const;
 
-    /// The unknowns among a field.
+    /// Copy the entries of a field at the unknowns.
     void
     gather(const Vector &field, std::vector<double> &unknowns) const
     {
@@ -103,8 +102,7 @@ namespace Exemplar
         unknowns[i] = field[own[i]];
     }
 
-    /// Add a factor times numbers by unknown to a field. All processes must call this and the
-    /// functions below.
+    /// field += factor * unknowns, at the unknowns. This and the functions below are collective.
     void
     add(const double factor, const std::vector<double> &unknowns, Vector &field) const
     {
@@ -114,16 +112,16 @@ namespace Exemplar
       with_others.share(field);
     }
 
-    /// Columns that this process' cells have summed, by local_list(), become those of the body, by
-    /// list(). Where a process has nothing to move, they do not tell how many there are.
+    /// Assemble columns: from partial sums by local_list() to full ones by list(). `n_columns` is
+    /// an argument because the columns of a process without free degrees of freedom do not tell it.
     void
     assemble_columns(std::vector<double> &columns, std::size_t n_columns) const;
 
-    /// Numbers by unknown, for the whole body at the root, in the order of one process.
+    /// Gather values by unknown for the whole body at the root, in the order of a single process.
     std::vector<double>
     whole(const std::vector<double> &unknowns) const;
 
-    /// What of a whole() are unknowns of this process.
+    /// The entries of a whole() at this process' unknowns.
     std::vector<double>
     part(const std::vector<double> &whole) const;
 
@@ -134,7 +132,7 @@ namespace Exemplar
 
     std::vector<int>          index;
     std::vector<unsigned int> dofs;
-    std::vector<int>          own_index; ///< of those that this process owns
+    std::vector<int>          own_index; ///< index in list(), or `held`
     std::vector<unsigned int> own_dofs;
     const Exchange           &with_others;
     unsigned int              n_reinits = 0;

@@ -10,19 +10,19 @@
 
 namespace Exemplar
 {
-  /// What a factorisation by fronts spends its time with, for an instruction set. Matrices are stored
-  /// by columns, `stride` apart. Loads reach up to `max_lanes` numbers beyond the last one.
+  /// Hot loops of multifrontal factorisation for an instruction set. Matrices are stored by
+  /// columns, `stride` apart. Loads reach up to `max_lanes` numbers beyond the last one.
   template <typename Number>
   struct FrontKernels
   {
-    static constexpr std::size_t max_lanes = 64 / sizeof(Number); ///< in a register
+    static constexpr std::size_t max_lanes = 64 / sizeof(Number); ///< numbers in a register
 
-    /// Overwrite the n columns of a panel, lower triangle first, by those of its Cholesky factor.
+    /// Overwrite the columns of a panel, lower triangle first, by those of its Cholesky factor.
     /// False if it is not positive definite.
     bool (*factorize)(Number *panel, std::ptrdiff_t stride, int n_rows, int n_columns);
 
-    /// Subtract A A_c^T from C, or make C minus that: A has n_rows rows and n_inner columns, A_c are
-    /// the first n_columns rows of A. Of C only what is on and below the diagonal.
+    /// C -= A A_c^T, or C = -A A_c^T with `overwrite`. A is n_rows x n_inner, A_c are its first
+    /// n_columns rows. Only the diagonal of C and what is below it are computed.
     void (*subtract_square)(const Number  *A,
                             std::ptrdiff_t stride_of_A,
                             int            n_inner,
@@ -35,9 +35,9 @@ namespace Exemplar
     /// target[places[i]] += column[i].
     void (*add_scattered)(const Number *column, const int *places, int n, Number *target);
 
-    /// Overwrite the entries of a vector that belong to supernodes begin to end - 1 by those of
-    /// L^-1 and L^-T times it. Forward adds what rows further below lose, backward takes these as
-    /// they are. `block` has as many entries as the greatest supernode has rows, and `max_lanes`.
+    /// Forward and backward substitution, x = L^-1 x and x = L^-T x, restricted to supernodes begin
+    /// to end - 1. Forward also adds their updates to rows further below; backward takes those rows
+    /// as known. `block` has as many entries as the greatest supernode has rows, plus `max_lanes`.
     void (*forward)(const FactorStructure &,
                     const Number *values,
                     const Number *inverse_diagonal,
@@ -54,7 +54,7 @@ namespace Exemplar
                      Number       *block);
   };
 
-  /// Those of the best instruction set that this CPU has.
+  /// The kernels of the best instruction set that this CPU has.
   template <typename Number>
   const FrontKernels<Number> &
   front_kernels();

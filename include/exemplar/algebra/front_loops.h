@@ -10,18 +10,18 @@
 
 namespace Exemplar
 {
-  /// The kernels of fronts with batches of numbers; see cell_kernels_loops.h for who may include this.
+  /// FrontKernels with SIMD batches; see cell_kernels_loops.h for who may include this.
   template <typename Batch>
   struct FrontLoops
   {
     using Number               = typename Batch::value_type;
     static constexpr int width = Batch::size;
     static constexpr int n_tile
-        = sizeof(Number) * width == 64 ? 8 : 4; ///< columns of a tile, which
-    static constexpr int n_batch = 3;           ///< fills the registers
+        = sizeof(Number) * width == 64 ? 8 : 4; ///< columns of a register tile
+    static constexpr int n_batch = 3;           ///< rows of a tile, in batches
     static_assert(width <= static_cast<int>(FrontKernels<Number>::max_lanes));
 
-    /// The tile of C of n columns and m batches of rows: C - A B^T, or -A B^T.
+    /// A tile of C with n columns and m batches of rows: C - A B^T, or -A B^T.
     template <int m, int n, bool overwrite>
     static void
     tile(const Number        *A,
@@ -50,7 +50,7 @@ namespace Exemplar
           sum[c][r].store_unaligned(C + c * stride_of_C + r * width);
     }
 
-    /// The same of fewer than `width` rows.
+    /// tile() for fewer than `width` rows.
     template <int n, bool overwrite>
     static void
     last_rows(const Number        *A,
@@ -101,7 +101,7 @@ namespace Exemplar
       int        c  = 0;
       for (; c + n_tile <= n_columns; c += n_tile)
         columns<n_tile, overwrite>(A + c, stride, n_inner, n_rows - c, at(c), stride_of_C);
-      for (; c + 3 <= n_columns; c += 3) // of a node
+      for (; c + 3 <= n_columns; c += 3) // a node's three
         columns<3, overwrite>(A + c, stride, n_inner, n_rows - c, at(c), stride_of_C);
       for (; c < n_columns; ++c)
         columns<1, overwrite>(A + c, stride, n_inner, n_rows - c, at(c), stride_of_C);

@@ -12,27 +12,27 @@
 
 namespace Exemplar
 {
-  /// Things that are numbered one process after the other: the first of each process if this one
-  /// has `n_own`, and the number of all. All processes must call this.
+  /// Global numbering, consecutive on each process: the first number of each process, of which this
+  /// one has `n_own`, and the total. Collective.
   std::vector<std::size_t>
   first_numbers(std::size_t n_own, const Exchange &exchange);
 
-  /// What a process needs of vectors beside its own numbers: copies of those of others. In one
-  /// process there are none.
+  /// Ghost entries of distributed vectors: copies of entries that other processes own. A single
+  /// process has none.
   class Halo
   {
   public:
-    /// Of empty vectors.
+    /// The halo of empty vectors.
     Halo() = default;
 
-    /// Of vectors with `n_each` numbers for each of the things that are numbered from `firsts` on,
-    /// as first_numbers() tells. `others` of other processes are needed here, ascending.
+    /// The halo of vectors with `n_each` numbers for each item. Items are numbered globally from
+    /// `firsts` on, see first_numbers(); `others`, ascending, are the numbers of the ghost items.
     Halo(const std::vector<std::size_t> &firsts,
          const std::vector<std::size_t> &others,
          unsigned int                    n_each,
          const Exchange                 &exchange);
 
-    /// Numbers that this process owns.
+    /// Number of owned entries.
     std::size_t
     n_own() const
     {
@@ -45,13 +45,12 @@ namespace Exemplar
       return partitioner->n_ghost_indices();
     }
 
-    /// From the own numbers of all processes to those that `others` are copies of. All processes
-    /// must call this and the next.
+    /// Update ghosts: copy the owners' entries to `others`. This and the next are collective.
     template <typename Number>
     void
     share(const Number *own, Number *others) const;
 
-    /// Add `others` to the own numbers of those who own them; they are zero afterwards.
+    /// Add the ghosts to their owners' entries, and set them to zero.
     void
     add_to_owners(float *own, float *others) const;
 

@@ -7,25 +7,25 @@
 
 namespace Exemplar
 {
-  /// An approximate inverse of a matrix that outlives the next factorisation of its operator: a
-  /// copy of the factor in single precision, say, or a multigrid cycle.
+  /// An approximate inverse of a matrix that stays valid when its operator is factorised anew: say,
+  /// a copy of the factor in single precision, or a multigrid cycle.
   class KeptInverse
   {
   public:
     virtual ~KeptInverse() = default;
 
-    /// Overwrite a vector, by free degree of freedom, by about A^-1 times it.
+    /// Overwrite a vector v, by unknown, by an approximation of A^-1 v.
     virtual void
     apply(std::vector<double> &vector)
         = 0;
 
-    /// What it costs to make this inverse anew, and to solve for some columns with the matrix then,
-    /// in iterations of a method that evaluates the forces and applies the inverse once: from counts
-    /// of operations, never from a clock.
+    /// Cost of making this inverse anew and of solving for n_columns right sides with the new
+    /// matrix, in units of one iteration that evaluates the forces and applies the inverse once:
+    /// from operation counts, never from a clock.
     virtual double
     cost_in_iterations(std::size_t n_columns) const = 0;
 
-    /// In bytes.
+    /// Memory in bytes.
     virtual std::size_t
     memory_consumption() const = 0;
   };

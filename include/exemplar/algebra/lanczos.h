@@ -9,15 +9,15 @@
 
 namespace Exemplar
 {
-  /// From the residual to what the preconditioner makes of it, own blocks.
+  /// The preconditioner: from a residual to the preconditioned residual, owned blocks.
   using Precondition = std::function<const BlockVector &(const BlockVector &residual)>;
 
-  /// As many find the eigenvalues well enough, by measurement, doc/measured.md.
+  /// Number of steps, enough for the eigenvalues by measurement, doc/measured.md.
   constexpr unsigned int n_lanczos_steps = 8;
 
-  /// The least and the greatest eigenvalue of a preconditioned matrix, both symmetric and positive
-  /// definite, as these steps of Lanczos' method find them: too great and too small. Without rows
-  /// they are 0.5 and 1. All processes of `exchange` must call this.
+  /// Estimates of the least and the greatest eigenvalue of a preconditioned matrix, both symmetric
+  /// and positive definite, by n_lanczos_steps steps of Lanczos' method: the least is over-, the
+  /// greatest underestimated. Without rows they are 0.5 and 1. Collective on `exchange`.
   std::pair<double, double>
   find_eigenvalues(const BlockMatrix  &matrix,
                    const Precondition &precondition,

@@ -10,9 +10,8 @@
 
 namespace Exemplar
 {
-  /// The memory of a quasi-Newton method: pairs of steps s and the changes y of the gradient
-  /// that they made correct an approximate inverse of the Hessian (Nocedal and Wright,
-  /// Algorithm 7.4).
+  /// The memory of a quasi-Newton method: pairs of steps s and gradient changes y along them, which
+  /// correct an approximate inverse of the Hessian (Nocedal and Wright, Algorithm 7.4).
   class Lbfgs
   {
   public:
@@ -27,11 +26,11 @@ namespace Exemplar
       pairs.clear();
     }
 
-    /// Remember a pair, if the energy curves upwards along it.
+    /// Append a pair if its curvature s.y is positive.
     void
     add_pair(const std::vector<double> &s, const std::vector<double> &y);
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const
     {
@@ -41,8 +40,8 @@ namespace Exemplar
       return bytes;
     }
 
-    /// Replace each vector v that it remembers by function(v), as for a checkpoint, which holds those
-    /// of the whole body.
+    /// Replace each stored vector v by function(v), say for a checkpoint, which holds vectors of
+    /// the whole body.
     template <typename Function>
     void
     map(const Function &function)
@@ -54,7 +53,7 @@ namespace Exemplar
       }
     }
 
-    /// For checkpoints: all that it knows.
+    /// Serialise the complete state, for checkpoints.
     template <typename Archive>
     void
     serialize(Archive &archive, unsigned int /*version*/)
@@ -62,12 +61,11 @@ namespace Exemplar
       archive &pairs;
     }
 
-    /// First half of the product with the inverse, on the vector before the approximate
-    /// inverse is applied to it.
+    /// First loop of the two-loop recursion, applied before the approximate inverse.
     void
     before(std::vector<double> &vector);
 
-    /// Second half, on what the approximate inverse has made of it.
+    /// Second loop of the recursion, applied after the approximate inverse.
     void
     after(std::vector<double> &vector) const;
 

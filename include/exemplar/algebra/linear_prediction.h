@@ -11,16 +11,17 @@
 
 namespace Exemplar
 {
-  /// Predicts the next vector of a sequence: by the linear combination of the last ones that,
-  /// one earlier, comes closest to the last. Exact for what is a sum of few oscillations,
+  /// Linear prediction of the next vector of a sequence: the coefficients are those that fit the
+  /// last vector best by the ones before it, in least squares. Exact for sums of few oscillations,
   /// damped or not, and for polynomials of low degree.
   class LinearPrediction
   {
   public:
-    /// Most vectors of a combination.
+    /// Greatest number of combined vectors.
     static constexpr unsigned int max_order = 5;
 
-    /// `exchange` must outlive this; `order`, from 1 to max_order, is how many vectors are combined.
+    /// `exchange` must outlive this; `order`, from 1 to max_order, is how many vectors are
+    /// combined.
     LinearPrediction(const Exchange &exchange, unsigned int order)
         : exchange(&exchange), order(order)
     {
@@ -29,11 +30,12 @@ namespace Exemplar
     void
     add(std::vector<double> vector);
 
-    /// The last one, where the combination is more than four times as long. Requires that there is a last one.
+    /// The predicted vector, or the last one if the prediction is more than four times as long.
+    /// Requires a last one.
     std::vector<double>
     next() const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const
     {
@@ -43,19 +45,19 @@ namespace Exemplar
       return bytes;
     }
 
-    /// The vectors that it remembers, as for a checkpoint; the last first.
+    /// The stored vectors, for checkpoints; the last first.
     const std::deque<std::vector<double>> &
     vectors() const
     {
       return history;
     }
 
-    /// Remember these instead.
+    /// Replace the stored vectors.
     void
     restore(std::deque<std::vector<double>> vectors);
 
   private:
-    /// Products of vector i with those that are older.
+    /// Compute the scalar products of vector i with itself and older ones.
     void
     multiply_out(std::size_t i);
 

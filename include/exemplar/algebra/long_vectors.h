@@ -10,7 +10,7 @@
 
 namespace Exemplar
 {
-  /// With as many entries of b as a has.
+  /// Scalar product; b has as many entries as a.
   template <typename Number>
   double
   dot(const std::vector<double> &a, const Number *b)
@@ -33,11 +33,12 @@ namespace Exemplar
     return dot(a, b.data());
   }
 
-  /// The greatest magnitude of numbers; a NaN counts as greater than all, and std::max would lose it.
+  /// The greatest magnitude of numbers; a NaN counts as greater than all, and std::max would lose
+  /// it.
   class MaxMagnitude
   {
   public:
-    /// One more number.
+    /// Include a number.
     void
     add(const double number)
     {

@@ -12,13 +12,13 @@
 
 namespace Exemplar
 {
-  /// Which nodes a process has. Beside their order in the files, which is the order on one process,
-  /// nodes have numbers that are consecutive for those of one owner.
+  /// The nodes of a process. Beside their order in the files, which is that on a single process,
+  /// nodes have global numbers that are consecutive for each owner.
   struct SharedNodes
   {
     std::vector<unsigned int> in_files;      ///< index of each node of this process, ascending
-    std::vector<unsigned int> numbers;       ///< of each
-    std::vector<unsigned int> first_numbers; ///< of each owner, and the number of all nodes
+    std::vector<unsigned int> numbers;       ///< global number of each node
+    std::vector<unsigned int> first_numbers; ///< first number of each owner, and the total
 
     template <typename Archive>
     void
@@ -33,7 +33,7 @@ namespace Exemplar
   class MpiExchange : public Exchange
   {
   public:
-    /// To be made by all processes of `communicator`, which has as many as there are owners.
+    /// Collective on `communicator`, which has as many processes as there are owners.
     MpiExchange(MPI_Comm communicator, SharedNodes nodes);
 
     unsigned int
@@ -114,12 +114,11 @@ namespace Exemplar
   private:
     using Partitioner = dealii::Utilities::MPI::Partitioner;
 
-    /// Find the nodes that processes share, and number them anew, so that only these are packed and
-    /// sent.
+    /// Find the shared nodes, and number them separately, so that only these are packed and sent.
     void
     find_shared_nodes();
 
-    /// For fields with n numbers a shared node.
+    /// The partitioner of fields with n numbers a shared node.
     const Partitioner &
     partitioner(unsigned int n) const;
 
@@ -130,9 +129,9 @@ namespace Exemplar
     const MPI_Comm            mpi_communicator;
     const SharedNodes         nodes;
     const unsigned int        own_process;
-    std::vector<bool>         is_owned;             ///< of each node
+    std::vector<bool>         is_owned;             ///< owner flag of each node
     std::vector<unsigned int> owned;                ///< nodes, by ascending number
-    std::vector<unsigned int> shared_owned, others; ///< that others have, too; that others own
+    std::vector<unsigned int> shared_owned, others; ///< owned and known to others; not owned
     std::vector<unsigned int> numbers_of_others;    ///< among shared nodes, ascending
     unsigned int first_shared = 0, n_shared = 0;    ///< number of shared_owned[0]; of all processes
     mutable std::map<unsigned int, std::unique_ptr<Partitioner>> partitioners;

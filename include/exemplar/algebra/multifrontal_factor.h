@@ -9,11 +9,11 @@
 
 namespace Exemplar
 {
-  /// A Cholesky factor, made and solved with by the multifrontal method (Duff and Reid, ACM TOMS 9,
-  /// 1983): each supernode's panel takes A's entries and what its children's fronts leave to it, is
-  /// factorised, and leaves its own part to its parent. Subtrees are done at once by several threads,
-  /// and so are blocks within a great front of the top; the order of all sums depends on the structure
-  /// alone, so that the factor is the same to the byte for any number of threads.
+  /// A Cholesky factor by the multifrontal method (Duff and Reid, ACM TOMS 9, 1983): each
+  /// supernode's panel is assembled from A's entries and its children's update matrices, is
+  /// factorised, and leaves an update matrix to its parent. Subtrees run in parallel on several
+  /// threads, and so do blocks within a large front of the top; the order of all sums depends on
+  /// the structure alone, so that the factor is bitwise the same for any number of threads.
   template <typename Number>
   class MultifrontalFactor
   {
@@ -21,21 +21,22 @@ namespace Exemplar
     /// `n_threads` >= 1.
     MultifrontalFactor(std::shared_ptr<const FactorStructure> structure, unsigned int n_threads);
 
-    /// Factorise the matrix with these values on the pattern. Returns whether it is positive definite;
-    /// if it is not, there is no factor.
+    /// Factorise the matrix with these values on the pattern. Returns whether it is positive
+    /// definite; if it is not, there is no factor afterwards.
     bool
     factorize(const std::vector<double> &values);
 
-    /// Take over the panels of a factor of A.
+    /// Copy the panels of a factor of A.
     void
     assign(const double *panels);
 
-    /// Overwrite columns (n entries each, one after the other, in the order of A) by A^-1 times them, for A times
-    /// get_scale().
+    /// Overwrite columns C (n entries each, one after the other, in the order of A) by (get_scale()
+    /// A)^-1 C.
     void
     solve(std::vector<Number> &columns);
 
-    /// A power of two: what is factorised is A times this, so that single precision has room for it.
+    /// A power of two: get_scale() times A is factorised, so that it is in the range of single
+    /// precision.
     double
     get_scale() const
     {
@@ -55,11 +56,11 @@ namespace Exemplar
       return *structure;
     }
 
-    /// Greatest over least pivot, squared as those of L D L^T are.
+    /// Ratio of the greatest to the least pivot of L D L^T, the squared ratio of the diagonal of L.
     double
     pivot_ratio() const;
 
-    /// In bytes, with the structure.
+    /// Memory in bytes, with the structure.
     std::size_t
     memory_consumption() const;
 
@@ -70,7 +71,7 @@ namespace Exemplar
     std::shared_ptr<const FactorStructure> structure;
     int                                    n_threads;
     double                                 scale = 1.;
-    std::vector<Number>                    values; ///< panels, and as many more as a register holds
+    std::vector<Number>                    values; ///< panels, padded by a register
     std::vector<Number>                    inverse_diagonal;
     SubtreeSolve<Number>                   workspace;
   };

@@ -9,25 +9,25 @@
 
 namespace Exemplar
 {
-  /// How often a cycle comes to coarser levels: once, or twice from each finer level, which takes more
-  /// time and leaves less of an error.
+  /// Visits of each coarser level: one from each finer level, or two, which takes more time and
+  /// reduces the error more.
   enum class CycleShape
   {
     V,
     W
   };
 
-  /// A cycle of multigrid in single precision, with Chebyshev's polynomials of a block-diagonal
-  /// preconditioner as smoothers: a symmetric positive definite operation, about the inverse of the
-  /// finest matrix.
+  /// A multigrid cycle in single precision with Chebyshev smoothers on a block-diagonal
+  /// preconditioner: a symmetric positive definite approximation of the inverse of the finest
+  /// matrix.
   class MultigridCycle
   {
   public:
-    /// All processes of `exchange`, which must outlive this, have a part of the hierarchy and must
-    /// call this and apply().
+    /// `exchange` must outlive this. This and apply() are collective; each process has a part of
+    /// the hierarchy.
     MultigridCycle(std::vector<MultigridLevel> hierarchy, const Exchange &exchange);
 
-    /// About A^-1 residual, own blocks; here until the next call.
+    /// An approximation of A^-1 residual, owned blocks; valid until the next call.
     const BlockVector &
     apply(const BlockVector &residual, CycleShape shape);
 
@@ -37,32 +37,31 @@ namespace Exemplar
       return levels[0].matrix;
     }
 
-    /// Blocks of matrices that a V cycle multiplies by, of this process.
+    /// Number of matrix blocks of this process that a V cycle multiplies by.
     double
     n_blocks() const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
   private:
-    /// The matrix of one level, the way to it from the next coarser one, and what a cycle computes
-    /// on it.
+    /// One level: its matrix, the prolongation from the next coarser level, and work vectors.
     struct Level : MultigridLevel
     {
       explicit Level(MultigridLevel level);
 
       std::vector<float> inverse_diagonal; ///< 9 numbers a block, by columns
-      double             maximum = 0.;     ///< eigenvalue of the matrix over its diagonal
+      double             maximum = 0.;     ///< greatest eigenvalue of D^-1 A
       BlockVector        solution, right_side, correction, residual;
-      BlockVector        coarser; ///< by columns of the prolongation
+      BlockVector        coarser; ///< vector by columns of the prolongation
     };
 
-    /// From right_side to solution of a level.
+    /// Compute a level's solution from its right_side.
     void
     cycle(std::size_t number, CycleShape shape);
 
-    /// As often as the shape asks for.
+    /// Run cycle() once or twice, as the shape demands.
     void
     visit(std::size_t number, CycleShape shape);
 

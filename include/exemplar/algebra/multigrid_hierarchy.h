@@ -10,22 +10,22 @@
 
 namespace Exemplar
 {
-  /// A matrix of a multigrid hierarchy, and how its vectors come from those of the next level.
+  /// A level of a multigrid hierarchy: its matrix, and the prolongation from the next coarser
+  /// level.
   struct MultigridLevel
   {
     BlockMatrix matrix, prolongation; ///< no prolongation on the coarsest level
   };
 
-  /// What a library makes of rows with the values that they have now: the levels of algebraic
-  /// multigrid, the finest first, of which the coarse spaces hold what rigid_modes() gives. All
-  /// processes that have rows must call it, under a TrilinosLock. Throws SolverFailure in all
-  /// processes.
+  /// A library's setup of algebraic multigrid for a matrix: its levels, the finest first, whose
+  /// coarse spaces hold the near null space `modes`, see rigid_modes(). Collective on the processes
+  /// that have rows, under a TrilinosLock. Throws SolverFailure on all processes.
   using MakeHierarchy = std::function<std::vector<MultigridLevel>(DistributedRows    &rows,
                                                                   std::vector<double> modes)>;
 
-  /// Add a sum of outer products, with the blocks of the finest matrix, to all levels: as it is to
-  /// the finest, and the Galerkin products P^T (.) P, assembled, to the coarser ones. All processes
-  /// must call this.
+  /// Add a sum of outer products, with the block rows of the finest matrix, to all levels:
+  /// unassembled to the finest, as assembled Galerkin products P^T (.) P to the coarser ones.
+  /// Collective.
   void
   add_products(const OuterProducts         &products,
                std::vector<MultigridLevel> &levels,

@@ -11,13 +11,14 @@
 
 namespace Exemplar
 {
-  /// Multigrid as an approximate inverse: a number of cycles is accelerated by Chebyshev's iteration,
-  /// so that they are one symmetric positive definite operation, which conjugate gradients are not.
+  /// Multigrid as an approximate inverse: a fixed number of cycles accelerated by Chebyshev's
+  /// iteration, which is a linear symmetric positive definite operation, unlike conjugate
+  /// gradients.
   class MultigridInverse : public KeptInverse
   {
   public:
-    /// `row_of` are the rows of the unknowns in the matrix. All processes of `exchange`, which must
-    /// outlive this, have a part of both.
+    /// `row_of` is the local matrix row of each unknown. `exchange` must outlive this; each of its
+    /// processes has a part of the cycle and of the rows.
     MultigridInverse(std::shared_ptr<MultigridCycle> cycle,
                      const std::vector<int>         &row_of,
                      const Exchange                 &exchange);
@@ -35,7 +36,7 @@ namespace Exemplar
     memory_consumption() const override;
 
   private:
-    /// From right_side, which is lost, to `result`.
+    /// Compute `result` from right_side, which is overwritten.
     void
     solve(BlockVector &result);
 
@@ -45,8 +46,8 @@ namespace Exemplar
     const Exchange                       &exchange;
     const std::vector<int>                row_of;
     const std::shared_ptr<MultigridCycle> cycle;
-    BlockVector                           right_side, step; ///< step of the polynomial
-    std::pair<double, double>             spectrum; ///< of the matrix, preconditioned by a cycle
+    BlockVector                           right_side, step; ///< update of Chebyshev's iteration
+    std::pair<double, double>             spectrum; ///< of the matrix preconditioned by one cycle
     unsigned int                          n_cycles      = 0;
     double                                relative_cost = 0., relative_cost_of_column = 0.;
   };

@@ -12,13 +12,13 @@ namespace Exemplar
 {
   class SharedVector;
 
-  /// What make_iterative_operator() makes, for one process or for several: conjugate gradients on
-  /// DistributedRows and OuterProductRows, preconditioned by a MultigridCycle of the levels that a
+  /// The operator of make_iterative_operator(), serial or distributed: conjugate gradients on
+  /// DistributedRows plus OuterProductRows, preconditioned by a MultigridCycle on the levels that a
   /// library makes of the former. Libraries take the blocks of three rows a node for their graph.
   class MultigridOperator : public SpdOperator
   {
   public:
-    /// `free_dofs` must outlive this. Starts MPI if it does not run.
+    /// `free_dofs` must outlive this. Starts MPI if it is not running.
     MultigridOperator(const FreeDofs &free_dofs, double tolerance, MakeHierarchy make_hierarchy);
 
     void
@@ -49,7 +49,7 @@ namespace Exemplar
     keep() const override;
 
   private:
-    /// Of the nodes with rows, x, y, z of one after the other.
+    /// Positions of the nodes with owned rows: x, y, z of one node after the other.
     std::vector<double>
     places_of_nodes(const Vector &positions) const;
 
@@ -57,7 +57,7 @@ namespace Exemplar
     void
     multiply(const Vector &vector, Vector &image) const;
 
-    /// image = about A^-1 vector, by own rows.
+    /// image = an approximation of A^-1 vector, by owned rows.
     void
     precondition(const Vector &vector, Vector &image) const;
 
@@ -68,10 +68,10 @@ namespace Exemplar
     const double                    tolerance;
     const MakeHierarchy             make_hierarchy;
     std::vector<double>             lower_values;
-    OuterProducts                   products; ///< by node
+    OuterProducts                   products; ///< outer products by node
     DistributedRows                 rows;
     OuterProductRows<double>        product_rows;
-    std::shared_ptr<MultigridCycle> cycle; ///< of the last factorize()
+    std::shared_ptr<MultigridCycle> cycle; ///< cycle of the last factorize()
   };
 } // namespace Exemplar
 

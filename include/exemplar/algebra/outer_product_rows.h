@@ -11,37 +11,37 @@
 
 namespace Exemplar
 {
-  /// Room behind numbers by threes that are read by fours.
+  /// Padding of arrays of three numbers a block that are read by fours.
   constexpr std::size_t read_beyond = 4;
 
-  /// The rows that a process has of a sum of outer products, as a matrix that is never assembled:
-  /// the whole of each product with a number in one of its rows, whoever has made it. So a product
-  /// with a vector takes the values of others once, as that of a sparse matrix does. In one process
-  /// sums are made in the order of the products.
+  /// A process' rows of a sum of outer products f_k u_k u_k^T, a matrix that is never assembled.
+  /// Each product with a non-zero row here is stored as a whole, whichever process has made it, so
+  /// that a matrix-vector product updates ghosts once, as that of a sparse matrix does. A single
+  /// process sums in the order of the products.
   template <typename Number>
   class OuterProductRows
   {
   public:
-    /// Numbers of a vector for each block of rows, of which the first three count.
+    /// Vector entries for each block row, of which the first three count.
     static constexpr unsigned int n_each = std::is_same<Number, float>::value ? 4 : 3;
 
-    /// None.
+    /// An empty sum.
     OuterProductRows() = default;
 
-    /// Of the products that each process has made, blocks being numbered from `firsts` on, as
-    /// first_numbers() tells. All processes must call this and the functions that multiply.
+    /// The sum of the products that all processes have made; their blocks are global numbers from
+    /// `firsts` on, see first_numbers(). This and the multiplications are collective.
     OuterProductRows(const OuterProducts            &made_here,
                      const std::vector<std::size_t> &firsts,
                      const Exchange                 &exchange);
 
-    /// That are known here, those that others have made last.
+    /// Number of products known to this process, its own first.
     std::size_t
     n_products() const
     {
       return factors.size();
     }
 
-    /// Blocks of all products.
+    /// Total number of blocks of all products.
     std::size_t
     n_blocks() const
     {
@@ -54,12 +54,12 @@ namespace Exemplar
       return factors[product];
     }
 
-    /// f_k u_k.x of each product; x has the own rows.
+    /// Coefficient f_k u_k.x of each product, where x has the owned rows.
     std::vector<Number>
     coefficients(const Number *x) const;
 
-    /// Call action(product, u) for the products with numbers in a block of own rows: there they are
-    /// the three at u, behind which a fourth may be read.
+    /// Call action(product, u) for the products with a non-zero block in an owned block row; u
+    /// points to its three numbers, and a fourth behind them may be read.
     template <typename Action>
     void
     for_each_in_row(const std::size_t row, const Action &action) const
@@ -70,8 +70,8 @@ namespace Exemplar
         action(product_of[k], &values[3 * static_cast<std::size_t>(entry_of[k])]);
     }
 
-    /// Call action(block, u) for all blocks of a product, by local number: the own ones, then those
-    /// of other_blocks().
+    /// Call action(block, u) for all blocks of a product, by local number: owned ones, then
+    /// other_blocks().
     template <typename Action>
     void
     for_each_block(const std::size_t product, const Action &action) const
@@ -80,24 +80,25 @@ namespace Exemplar
         action(blocks[entry], &values[3 * static_cast<std::size_t>(entry)]);
     }
 
-    /// Numbers among all processes, ascending.
+    /// Global numbers of the ghost blocks, ascending.
     const std::vector<std::size_t> &
     other_blocks() const
     {
       return others;
     }
 
-    /// Of sums that each process has made of its own rows of the n_products(), with the blocks of
-    /// another numbering: the products that this process has made, complete.
+    /// Complete partial sums, which each process has computed for the n_products() from its owned
+    /// rows, in the block numbering of another matrix: returns the full products that this process
+    /// has made.
     OuterProducts
     complete(const OuterProducts &parts, const Exchange &exchange) const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
   private:
-    /// Give others the products with numbers in their rows; returns theirs.
+    /// Send products to the processes that own some of their rows; returns the received ones.
     std::map<unsigned int, OuterProducts>
     share_products(const OuterProducts            &made_here,
                    const std::vector<std::size_t> &firsts,
@@ -114,12 +115,13 @@ namespace Exemplar
 
     Halo                     halo;
     std::vector<Number>      factors;
-    std::vector<int>         start = { 0 }; ///< of each product's blocks
-    std::vector<int>         blocks;        ///< by local number
-    std::vector<Number>      values;        ///< three a block, and some behind
+    std::vector<int>         start = { 0 }; ///< begin of each product's blocks, and the end
+    std::vector<int>         blocks;        ///< local number of each block
+    std::vector<Number>      values;        ///< three a block, padded
     std::vector<int>         row_start, product_of, entry_of;
     std::vector<std::size_t> others;
-    /// Products made here that other processes know, and how many are known of each of them.
+    /// Products made here that each other process knows, and how many of each other process'
+    /// products are known here.
     std::map<unsigned int, std::vector<std::size_t>> known_to;
     std::map<unsigned int, std::size_t>              n_known_of;
   };

@@ -8,14 +8,14 @@
 namespace Exemplar
 {
   /// A sum of scaled outer products f_k u_k u_k^T, where u_k has three numbers for each of a few
-  /// blocks, in any order: nodes, or blocks of rows of a matrix. Of low rank where it stands, it would
-  /// couple all blocks of a product with each other on a pattern.
+  /// blocks, in any order: nodes, or block rows of a matrix. Kept apart because it has low rank,
+  /// but assembled would couple all blocks of a product with each other.
   struct OuterProducts
   {
     std::vector<double>       factors; ///< f_k
-    std::vector<std::size_t>  ends;    ///< of the blocks of each product
+    std::vector<std::size_t>  ends;    ///< end of each product's blocks
     std::vector<unsigned int> blocks;
-    std::vector<double>       values; ///< of u_k, three a block
+    std::vector<double>       values; ///< entries of u_k, three a block
 
     std::size_t
     size() const
@@ -29,7 +29,7 @@ namespace Exemplar
       return product == 0 ? 0 : ends[product - 1];
     }
 
-    /// Of u_k, three for each of `its_blocks`.
+    /// Append a product f u u^T; u has three numbers for each of `its_blocks`.
     void
     add(const double                     factor,
         const std::vector<unsigned int> &its_blocks,
@@ -59,7 +59,7 @@ namespace Exemplar
         own *= factor;
     }
 
-    /// Keeps the memory.
+    /// Remove all products; keeps the memory.
     void
     clear()
     {

@@ -12,14 +12,14 @@ namespace Exemplar
 {
   constexpr unsigned int n_rigid_modes = 6;
 
-  /// Move the nodes at `places` (x, y, z of one after the other) to their centroid and divide them
-  /// by their greatest coordinate, so that translations and rotations are of the same size. Each
-  /// process has the places of other nodes.
+  /// Shift the origin of `places` (x, y, z of one node after the other) to the centroid of all
+  /// nodes, and divide by their greatest coordinate, so that translations and rotations have the
+  /// same order of magnitude. Each process has the places of its own nodes.
   void
   center_and_scale(std::vector<double> &places, const Exchange &exchange);
 
-  /// Three translations and three infinitesimal rotations of the nodes at `places`, a column of
-  /// places.size() entries each, one after the other. Entries whose row is not in `rows` are zero.
+  /// Three translations and three infinitesimal rotations of the nodes at `places`, six columns of
+  /// places.size() entries, one after the other. Entries whose row is not in `rows` are zero.
   std::vector<double>
   rigid_modes(const std::vector<double> &places, const std::vector<int> &rows);
 } // namespace Exemplar

@@ -9,12 +9,12 @@
 
 namespace Exemplar
 {
-  /// Overwrite columns by about A^-1 times them, by a factor in single precision.
+  /// Overwrite columns C by an approximation of A^-1 C, by a factor in single precision.
   void
   apply_in_single_precision(MultifrontalFactor<float> &factor, std::vector<double> &columns);
 
-  /// A Cholesky factor in single precision: solving with it costs a third of what one in double
-  /// precision does, and an approximate inverse needs no more digits.
+  /// A Cholesky factor in single precision as an approximate inverse: solving costs a third of that
+  /// in double precision.
   class SinglePrecisionInverse : public KeptInverse
   {
   public:

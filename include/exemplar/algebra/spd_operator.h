@@ -21,9 +21,9 @@ namespace Exemplar
   {
     std::vector<int> column_start; ///< n + 1 entries
     std::vector<int> row;
-    unsigned int     version = 0; ///< how often it was made anew
-    /// Whether values on it lack what terms give as OuterProducts, of which the couplings are no part
-    /// of it.
+    unsigned int     version = 0; ///< number of rebuilds
+    /// Whether terms of the matrix are given as OuterProducts instead, whose couplings are not in
+    /// the pattern.
     bool products_are_apart = false;
     /// The pattern without couplings that come and go, in whose order of elimination they may stand; null: it has
     /// none of these.
@@ -35,8 +35,8 @@ namespace Exemplar
       return column_start.empty() ? 0 : column_start.size() - 1;
     }
 
-    /// Size of the array of values: kernels write whole registers, and what they write
-    /// behind the last value is zero.
+    /// Size of the array of values, padded: kernels write whole registers, which are zero behind
+    /// the last value.
     std::size_t
     n_values() const
     {
@@ -45,7 +45,7 @@ namespace Exemplar
 
     static constexpr std::size_t padding = 4;
 
-    /// Position of entry (i,j), i >= j, which must be there.
+    /// Position of entry (i,j), i >= j, which must be in the pattern.
     int
     position(const int i, const int j) const
     {
@@ -54,7 +54,7 @@ namespace Exemplar
     }
   };
 
-  /// What operators throw if their matrix is not positive definite.
+  /// The exception for a matrix that is not positive definite.
   inline SolverFailure
   indefinite_matrix()
   {
@@ -62,18 +62,18 @@ namespace Exemplar
                          "without support, or cells may be inverted.");
   }
 
-  /// What an operator tells of itself, in the terms of no library.
+  /// Properties of an operator, independent of its library.
   struct OperatorTraits
   {
-    std::string name;         ///< as Solver/Linear solver names it
+    std::string name;         ///< value of Solver/Linear solver
     double n_operations = 0.; ///< floating point operations of a factorisation; 0: nothing is known
-    double pivot_ratio  = 0.; ///< greatest over least pivot of the last factor, which the condition
-                              ///< number is not below; 0: there is none
-    std::size_t bytes = 0;    ///< of matrix and factor; 0: it does not tell
+    double pivot_ratio  = 0.; ///< greatest over least pivot of the last factor, a lower bound of
+                              ///< the condition number; 0: there is none
+    std::size_t bytes = 0;    ///< memory of matrix and factor; 0: not known
   };
 
-  /// A sparse symmetric positive definite matrix and its factor, or what stands for one.
-  /// The pattern is analysed once; values are then written in place and factorised anew.
+  /// A sparse symmetric positive definite matrix and its factor or solver. The pattern is analysed
+  /// once; values are then written in place and factorised anew.
   class SpdOperator
   {
   public:
@@ -93,67 +93,66 @@ namespace Exemplar
     values()
         = 0;
 
-    /// By node, a further summand of the matrix, to be overwritten; null for an operator that takes
-    /// none, and has all on its pattern.
+    /// A further summand of the matrix, outer products by node, to be overwritten; null for an
+    /// operator that assembles everything on its pattern.
     virtual OuterProducts *
     outer_products()
     {
       return nullptr;
     }
 
-    /// Prepare for solve() with the values as they are. `positions` [m], by degree of freedom,
-    /// are those of the state of which the matrix is the tangent: multigrid takes the rigid
-    /// motions from there. Throws SolverFailure if the matrix is not positive definite.
+    /// Prepare for solve() with the current values. `positions` [m], by degree of freedom, are
+    /// those of the state at which the matrix is the tangent: multigrid takes the rigid modes from
+    /// them. Throws SolverFailure if the matrix is not positive definite.
     virtual void
     factorize(const Vector &positions)
         = 0;
 
-    /// The same where solve() and keep() need a few digits only, as those of a metric.
+    /// factorize() for solve() and keep() with a few digits only, enough for a metric.
     virtual void
     factorize_roughly(const Vector &positions)
     {
       factorize(positions);
     }
 
-    /// Overwrite the columns (n entries each, one after the other) by A^-1 times them.
-    /// Throws SolverFailure if the matrix turns out not to be positive definite only here.
+    /// Overwrite columns C (n entries each, one after the other) by A^-1 C. Throws SolverFailure if
+    /// the matrix turns out only here not to be positive definite.
     virtual void
     solve(std::vector<double> &columns)
         = 0;
 
-    /// Another operator of the same pattern, with values and a factor of its own, which another thread may make
-    /// at the same time; null for an operator that has none.
+    /// An independent operator on the same pattern, with its own values and factor, for concurrent
+    /// use in another thread; null if not supported.
     virtual std::unique_ptr<SpdOperator>
     twin() const
     {
       return nullptr;
     }
 
-    /// What serves as inverse when the matrix has changed. Throws SolverFailure if the operator
-    /// has nothing of the kind.
+    /// An approximate inverse that stays when the matrix changes. Throws SolverFailure if the
+    /// operator has none.
     virtual std::unique_ptr<KeptInverse>
     keep() const = 0;
   };
 
-  /// A sparse Cholesky factorisation in the order that CHOLMOD finds, by MultifrontalFactor; no result
-  /// depends on the number of threads.
+  /// A sparse Cholesky factorisation by MultifrontalFactor in CHOLMOD's ordering; no result depends
+  /// on the number of threads.
   std::unique_ptr<SpdOperator>
   make_cholesky_operator(unsigned int n_threads = 1);
 
-  /// CHOLMOD's own, for checking.
+  /// CHOLMOD's own factorisation, for checking.
   std::unique_ptr<SpdOperator>
   make_cholmod_operator();
 
-  /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned
-  /// with multigrid on the levels of ML's smoothed aggregation, whose coarse spaces hold the six rigid
-  /// motions of the nodes. Results depend on the matrix, the positions of the nodes and the right side alone.
-  /// The pattern that reinit() is given must outlive it.
-  /// Throws UserError in a build without Trilinos, and where MPI neither runs nor may be started
-  /// (MpiSession).
+  /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned with
+  /// multigrid on the levels of ML's smoothed aggregation, whose coarse spaces hold the six rigid
+  /// motions of the nodes. Results depend on the matrix, the positions of the nodes and the right
+  /// side alone. The pattern given to reinit() must outlive the operator. Throws UserError in a
+  /// build without Trilinos, and where MPI neither runs nor may be started (MpiSession).
   std::unique_ptr<SpdOperator>
   make_iterative_operator(const FreeDofs &free_dofs, double tolerance);
 
-  /// Whether this is a build with Trilinos, of which make_iterative_operator() makes use.
+  /// Whether this build has Trilinos, which make_iterative_operator() needs.
   bool
   has_iterative_operator();
 } // namespace Exemplar

@@ -10,8 +10,8 @@
 
 namespace Exemplar
 {
-  /// What solves with a factor need beside it: columns in the order of the factor, each with a tail as
-  /// FactorStructure has it, and a block for each thread.
+  /// Workspace and driver of triangular solves: columns in the order of the factor, each with a
+  /// tail as described in FactorStructure, and a block for each thread.
   template <typename Number>
   class SubtreeSolve
   {
@@ -19,9 +19,9 @@ namespace Exemplar
     /// `n_threads` >= 1.
     explicit SubtreeSolve(const unsigned int n_threads) : blocks(n_threads) {}
 
-    /// Overwrite columns of n entries, in the order of A: forward(begin, end, columns, stride, block) and
-    /// then backward() of all supernodes, in the order of the tree. Columns are `stride` apart. Which
-    /// thread does a subtree changes nothing.
+    /// Overwrite columns of n entries, in the order of A: call forward(begin, end, columns, stride,
+    /// block) and then backward() for all supernodes, in the order of the elimination tree. Columns
+    /// are `stride` apart. The result does not depend on which thread does a subtree.
     template <typename Forward, typename Backward>
     void
     solve(const FactorStructure &structure,
@@ -55,7 +55,7 @@ namespace Exemplar
           columns[k * n + structure.permutation[i]] = permuted[k * stride + i];
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const
     {
@@ -66,7 +66,8 @@ namespace Exemplar
     }
 
   private:
-    /// To start a thread takes as long as to solve with so many numbers of a factor.
+    /// Least size of a factor for threads: starting one takes as long as solving with so many
+    /// numbers.
     static constexpr std::size_t min_values = 400000;
 
     template <typename Kernel>

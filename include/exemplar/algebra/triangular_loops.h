@@ -8,15 +8,15 @@
 
 namespace Exemplar
 {
-  /// The triangular solves with batches of numbers; see cell_kernels_loops.h for who may include this.
+  /// Triangular solves with SIMD batches; see cell_kernels_loops.h for who may include this.
   template <typename Batch>
   struct TriangularLoops
   {
     using Number               = typename Batch::value_type;
     static constexpr int width = Batch::size;
 
-    // The last batch reaches beyond the rows, into what follows in memory: there the block is zero or
-    // unused.
+    // The last batch reaches beyond the rows, into what follows in memory: there the block is zero
+    // or unused.
 
     static constexpr int n_at_once = 4; ///< columns
 
@@ -42,7 +42,7 @@ namespace Exemplar
       }
     }
 
-    /// Products of the columns with a vector over the rows from `row` to end - 1.
+    /// Scalar products of the columns with a vector over the rows from `row` to end - 1.
     template <int n>
     static void
     multiply_columns(const Number *columns,

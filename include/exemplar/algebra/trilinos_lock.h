@@ -6,9 +6,9 @@
 
 namespace Exemplar
 {
-  /// While it lives, no other thread calls Trilinos: ML keeps lists of its memory, a random number
-  /// generator and timers for the whole process, and MPI takes calls of one thread at a time. To be
-  /// held for a call or a few, and never while a function of the host program runs.
+  /// A lock during whose lifetime no other thread calls Trilinos: ML keeps lists of its memory, a
+  /// random number generator and timers for the whole process, and MPI takes calls of one thread at
+  /// a time. To be held for a call or a few, and never while a function of the host program runs.
   class TrilinosLock
   {
   public:

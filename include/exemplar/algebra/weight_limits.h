@@ -7,13 +7,13 @@
 
 namespace Exemplar
 {
-  /// What keeps example weights, or changes of them, from going where the quadratic would have them:
-  /// bounds w_i >= lower_i, and prices yields_i |w_i - kinks_i| that are added to the quadratic.
+  /// Limits on example weights, or on changes of them, in a quadratic program: bounds w_i >=
+  /// lower_i, and terms yields_i |w_i - kinks_i| that are added to the objective.
   struct WeightLimits
   {
-    std::vector<double> lower; ///< empty: no bounds
-    std::vector<double> kinks; ///< not below the bounds, which there must be then; empty: no prices
-    std::vector<double> yields; ///< not negative
+    std::vector<double> lower;  ///< empty: no bounds
+    std::vector<double> kinks;  ///< >= lower, which must be given then; empty: no kinks
+    std::vector<double> yields; ///< >= 0
 
     WeightLimits() = default;
 

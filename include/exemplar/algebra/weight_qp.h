@@ -18,15 +18,14 @@ namespace Exemplar
     std::vector<double> multipliers; ///< l_g with (H w - c)_i + l_g = 0 on weights off their bounds
   };
 
-  /// Minimise 1/2 w^T H w - c^T w and the prices of `limits` by a primal active set method (Nocedal
-  /// and Wright, Algorithm 16.3), in which a weight may also be stuck at its kink: exactly there, with
-  /// a derivative of the quadratic less its multiplier between -yield and yield. Off its kink the
-  /// derivative has +-yield in it. The weights are groups of equal size, one after the other, of which
-  /// each has its sum in `sums`. H need be positive definite only on differences of weights of a
-  /// group. Requires that the bounds allow the sums, and that kinks have them, up to rounding.
-  /// From a `start` that is within the bounds and near the minimiser it takes fewer
-  /// operations; its sums need be right only up to rounding. Without one it begins at the kinks, if
-  /// there are any.
+  /// Minimise 1/2 w^T H w - c^T w plus the kinks of `limits` by a primal active set method (Nocedal
+  /// and Wright, Algorithm 16.3), in which a weight may also be stuck at its kink: exactly there,
+  /// with a derivative of the quadratic less its multiplier between -yield and yield. Off its kink
+  /// the derivative includes +-yield. Weights are groups of equal size, one after the other, each
+  /// with its sum in `sums`. H need be positive definite only on differences within groups.
+  /// Requires that the bounds admit the sums, and that the kinks have these sums, up to rounding. A
+  /// `start` within the bounds near the minimiser saves operations; its sums need be right only up
+  /// to rounding. Without it the iteration begins at the kinks, if any.
   WeightQpSolution
   minimize_over_weights(const dealii::FullMatrix<double> &H,
                         const std::vector<double>        &c,

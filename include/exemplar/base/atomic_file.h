@@ -10,17 +10,16 @@
 
 namespace Exemplar
 {
-  /// A file that appears whole or not at all: it is written as `path`.tmp and
-  /// renamed by commit(). Without commit() the destructor removes the temporary
-  /// and what stood at `path` stays. Opening and commit() throw
-  /// std::runtime_error with the path and the system's reason (disk full, ...).
-  /// It stays in the directory that `path` led to when it was opened, wherever that is moved.
+  /// A file that appears whole or not at all: it is written as `path`.tmp and renamed by commit().
+  /// Without commit() the destructor removes the temporary and what stood at `path` stays. Opening
+  /// and commit() throw std::runtime_error with the path and the system's reason (disk full, ...).
+  /// The directory of `path` is that at opening, wherever it is moved.
   class AtomicFile
   {
   public:
     explicit AtomicFile(const std::filesystem::path &path);
 
-    /// Under which name the file of this path is written.
+    /// The temporary name of the file of this path.
     static std::filesystem::path
     temporary_of(std::filesystem::path path);
 
@@ -36,7 +35,7 @@ namespace Exemplar
     std::ostream &
     stream();
 
-    /// Everything to the disk, then rename. Call this or the next once.
+    /// Sync everything to the disk, then rename. Call this or the next once.
     void
     commit();
 
@@ -53,7 +52,7 @@ namespace Exemplar
 
     std::filesystem::path   path;
     std::filesystem::path   temporary;
-    OpenDirectory           directory; ///< in which both are
+    OpenDirectory           directory; ///< directory of both files
     std::unique_ptr<Buffer> buffer;
     std::ostream            out;
     bool                    committed = false;

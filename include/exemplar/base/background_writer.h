@@ -11,17 +11,17 @@
 
 namespace Exemplar
 {
-  /// Does jobs one after the other, in the order in which they come, while the caller
-  /// goes on. A job owns its data, or shares what nobody changes. If one throws, those
-  /// behind it are forgotten, and from then on submit() and drain() throw what it threw.
+  /// A queue of jobs, run one after the other in the order of submission, while the caller goes on.
+  /// A job owns its data, or shares data that nobody changes. If one throws, those behind it are
+  /// dropped, and from then on submit() and drain() throw its exception.
   class BackgroundWriter
   {
   public:
-    /// Jobs that may wait while another is done.
+    /// Greatest number of jobs that wait while another runs.
     static constexpr unsigned int max_waiting = 2;
 
-    /// With a thread of its own, which starts with the first job, or with none: then
-    /// submit() does the job.
+    /// With `has_thread` jobs run in a thread, which starts with the first job; otherwise submit()
+    /// runs them.
     explicit BackgroundWriter(bool has_thread);
 
     BackgroundWriter(const BackgroundWriter &) = delete;
@@ -29,7 +29,7 @@ namespace Exemplar
     operator=(const BackgroundWriter &)
         = delete;
 
-    /// Does the jobs that are left. Nobody learns of their errors: drain() before.
+    /// Runs the remaining jobs. Their errors are lost: call drain() before.
     ~BackgroundWriter();
 
     /// Returns once no more than `max_waiting` jobs wait.
@@ -41,7 +41,7 @@ namespace Exemplar
     drain();
 
   private:
-    /// What the thread does.
+    /// The function of the thread.
     void
     work();
 
@@ -52,7 +52,7 @@ namespace Exemplar
     std::mutex                        mutex; ///< guards the members below
     std::condition_variable           changed;
     std::deque<std::function<void()>> waiting;
-    bool                              busy    = false; ///< a job has been taken and is not done
+    bool                              busy    = false; ///< a job is running
     bool                              closing = false;
     std::exception_ptr                error;
     std::thread                       thread;

@@ -6,13 +6,13 @@
 
 namespace Exemplar
 {
-  /// What tells the program or shared library that holds `address` from every other: the linker's
-  /// digest of its contents (GNU build id), in hexadecimal digits. Where a linker has given it
-  /// none, its path, size and time of change.
+  /// An identity of the program or shared library that holds `address`: the linker's digest of its
+  /// contents (GNU build id), in hexadecimal digits. Where a linker has given it none, its path,
+  /// size and time of change.
   std::string
   build_identity(const void *address);
 
-  /// That of this code: it changes with each change of the program.
+  /// The build identity of this code, which changes with each change of the program.
   std::string
   own_build_identity();
 } // namespace Exemplar

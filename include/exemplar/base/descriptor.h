@@ -6,7 +6,7 @@
 
 namespace Exemplar
 {
-  /// What open() or the like has returned, closed at the end. Negative: there is none.
+  /// A file descriptor from open() or the like, closed by the destructor. Negative: none.
   class Descriptor
   {
   public:

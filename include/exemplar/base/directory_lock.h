@@ -9,16 +9,16 @@
 
 namespace Exemplar
 {
-  /// While it lives, nobody else has a lock on the same directory, neither another process nor this one. It
-  /// is a lock on the open directory: nothing is written, and it ends with the process, however that ends.
-  /// File systems without such locks (NFS, for one) keep nobody apart.
+  /// An exclusive lock on a directory, against other processes and this one. It is a lock on the
+  /// open directory: nothing is written, and it ends with the process, however that ends. File
+  /// systems without such locks (NFS, for one) exclude nobody.
   class DirectoryLock
   {
   public:
-    /// Throws UserError with `refusal` if another has it.
+    /// Throws UserError with `refusal` if the directory is locked.
     DirectoryLock(const std::filesystem::path &directory, const std::string &refusal);
 
-    /// As that of OpenDirectory.
+    /// OpenDirectory::is_in_place() of the locked directory.
     bool
     is_in_place() const
     {

@@ -6,28 +6,29 @@
 
 namespace Exemplar
 {
-  /// The BLAS in use, as far as it tells.
+  /// The BLAS in use, as far as it is known.
   struct BlasInfo
   {
     std::string library; ///< "OpenBLAS 0.3.21", or "unknown" (the reference BLAS, say)
     std::string core;    ///< OpenBLAS's core type; empty for others
     std::string file;    ///< the library's file
-    int         threads; ///< as far as it tells
+    int         threads; ///< number of threads, as far as known
   };
 
   BlasInfo
   blas_info();
 
-  /// What to do if this is not OpenBLAS; empty if it is.
+  /// Advice if the BLAS is not OpenBLAS; empty if it is.
   std::string
   blas_warning();
 
-  /// A sentence if this CPU has instructions for which the loops of this build were not compiled, or nothing.
+  /// A sentence if this CPU has instruction sets for which the loops of this build were not
+  /// compiled; otherwise empty.
   std::string
   instruction_set_warning();
 
-  /// While it lives, parallel regions of OpenMP that libraries such as CHOLMOD begin in this thread
-  /// have one thread: more cost more than they bring, and spin where others need the cores.
+  /// During its lifetime, parallel regions of OpenMP that libraries such as CHOLMOD begin in this
+  /// thread have one thread: more cost more than they bring, and spin where others need the cores.
   class OneOpenMPThread
   {
   public:
@@ -43,14 +44,14 @@ namespace Exemplar
     const int levels_before;
   };
 
-  /// OpenBLAS on one thread in the whole process, and the parallel regions that libraries begin in
-  /// this thread: results must not depend on how many there are.
+  /// Restrict OpenBLAS to one thread in the whole process, and the parallel regions that libraries
+  /// begin in this thread, so that results do not depend on the number of threads.
   void
   use_one_blas_thread();
 
-  /// OpenBLAS takes a CPU that it does not know for an old one and is then several
-  /// times slower. In that case start this program anew with OPENBLAS_CORETYPE set;
-  /// does not return if it does. To be called first in main().
+  /// Restart this program with OPENBLAS_CORETYPE set if OpenBLAS takes an unknown CPU for an old
+  /// one, which makes it several times slower; does not return if it does. To be called first in
+  /// main().
   void
   restart_with_right_core_type(char *argv[]);
 

@@ -22,13 +22,13 @@ namespace Exemplar
     using std::runtime_error::runtime_error;
   };
 
-  /// Ctrl-C or SIGTERM; a checkpoint has been written. Status 130.
+  /// Interrupted by Ctrl-C or SIGTERM; a checkpoint has been written. Status 130.
   class Interrupted : public std::runtime_error
   {
     using std::runtime_error::runtime_error;
   };
 
-  /// What a path cannot be used for, in words for a message: the path and the system's reason.
+  /// Why a path cannot be used, in words for a message: the path and the system's reason.
   inline std::string
   trouble_with_path(const std::filesystem::filesystem_error &error)
   {

@@ -7,15 +7,15 @@
 
 namespace Exemplar
 {
-  /// How many threads of this process may work at once: one on each core that it is bound to (by taskset
-  /// or mpirun, say), and no more than the quota of its control groups (of a container, say) lets work
-  /// without a break; at least one.
+  /// Number of threads of this process that can run at once: one on each core that it is bound to
+  /// (by taskset or mpirun, say), bounded by the quota of its control groups (of a container, say);
+  /// at least one.
   unsigned int
   n_free_cores();
 
-  /// How many cores the quotas of control groups come to, which `mounted` shows (/sys/fs/cgroup) and of
-  /// which `membership` names those of a process (/proc/self/cgroup): the least of each group and
-  /// those above it. Infinite without a quota.
+  /// Number of cores by the quotas of control groups, mounted at `mounted` (/sys/fs/cgroup): the
+  /// least quota of the groups of a process, which `membership` names (/proc/self/cgroup), and of
+  /// those above them. Infinite without a quota.
   double
   cores_of_quotas(const std::filesystem::path &mounted, const std::string &membership);
 } // namespace Exemplar

@@ -6,15 +6,15 @@
 
 namespace Exemplar
 {
-  /// For which kernels are compiled, each including the ones before.
+  /// Instruction sets for which kernels are compiled, each including the ones before.
   enum class InstructionSet
   {
-    baseline, ///< what every CPU of the kind has
+    baseline, ///< instructions of every CPU of the architecture
     avx2,     ///< x86-64-v3
     avx512    ///< x86-64-v4
   };
 
-  /// The best one that this CPU has.
+  /// The best instruction set of this CPU.
   inline InstructionSet
   best_instruction_set()
   {

@@ -7,18 +7,18 @@
 
 namespace Exemplar
 {
-  /// What kept_bytes() has found or made.
+  /// Result of kept_bytes().
   struct KeptBytes
   {
     std::string bytes;
-    std::string warning; ///< why it was made and not kept, and the remedy; empty if it is kept
+    std::string warning; ///< why it is made and not kept, with advice; empty if it is kept
   };
 
-  /// Bytes that take long to make, kept in a sealed file of $XDG_CACHE_HOME/exemplar or
-  /// ~/.cache/exemplar under `name`, which is to say all that they follow from (a digest). Unless
-  /// they are there and whole, `make` makes them. The file appears whole or not at all: several
-  /// processes may make it at once. Where they cannot be kept, or where others may write, nothing
-  /// is read and nothing kept.
+  /// A cache of bytes that take long to make, in sealed files of $XDG_CACHE_HOME/exemplar or
+  /// ~/.cache/exemplar. `name` identifies all inputs of the bytes (a digest). Unless the file
+  /// exists and is undamaged, `make` makes the bytes. Files appear whole or not at all: several
+  /// processes may make one at once. Where the directory cannot be used, or others may write to it,
+  /// nothing is read and nothing kept.
   KeptBytes
   kept_bytes(const std::string &name, const std::function<std::string()> &make);
 } // namespace Exemplar

@@ -6,21 +6,22 @@
 
 namespace Exemplar
 {
-  /// How mpirun, mpiexec or srun has started this process, by what it has left in the environment.
+  /// How mpirun, mpiexec or srun has started this process, by the environment variables that it has
+  /// set.
   struct Launch
   {
-    std::string  program;         ///< that has started it; empty if nobody has
-    unsigned int n_processes = 1; ///< that it has started together; 0 if it does not say
-    unsigned int process     = 0; ///< which of these this is
+    std::string  program;         ///< the launcher; empty if there is none
+    unsigned int n_processes = 1; ///< number of processes started together; 0: unknown
+    unsigned int process     = 0; ///< index of this process
 
-    bool is_ready_for_mpi = true; ///< whether it tells the processes how they find each other
+    bool is_ready_for_mpi = true; ///< whether the processes can connect to each other
   };
 
   Launch
   find_launch();
 
-  /// Whether Open MPI's mpirun itself has started this process, and not a script or program that it has
-  /// started.
+  /// Whether this process is a direct child of Open MPI's mpirun, not of a script or program that
+  /// it has started.
   bool
   is_child_of_mpirun();
 } // namespace Exemplar

@@ -9,8 +9,9 @@
 
 namespace Exemplar
 {
-  /// Call function(i, thread) for the tasks 0 to n - 1, of which some may take much longer than others, in
-  /// up to n_threads threads, as share_tasks() does. With one thread it stops at the first that throws.
+  /// Call function(i, thread) for tasks 0 to n - 1 of possibly very different durations, in up to
+  /// n_threads threads, as share_tasks() does. With one thread it stops at the first task that
+  /// throws.
   template <typename Function>
   void
   for_each_task(const int n, const int n_threads, const Function &function)
@@ -22,8 +23,8 @@ namespace Exemplar
         function(i, 0);
   }
 
-  /// Call function(part, begin, end) for n_parts consecutive parts of the numbers 0 to n - 1, in up to
-  /// n_threads threads.
+  /// Call function(part, begin, end) for n_parts consecutive parts of the numbers 0 to n - 1, in up
+  /// to n_threads threads.
   template <typename Function>
   void
   for_each_part(const std::size_t n_parts,

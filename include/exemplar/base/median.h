@@ -7,7 +7,7 @@
 
 namespace Exemplar
 {
-  /// Of at least one value.
+  /// Median of at least one value.
   inline double
   median(std::vector<double> values)
   {

@@ -6,16 +6,16 @@
 #include <string_view>
 #include <vector>
 
-// Messages quote what users and their files hold, which may be any bytes.
+// Text for messages, which quote users and their files: any bytes.
 
 namespace Exemplar
 {
-  /// The first byte that is no text for people: no UTF-8, or a control character other than a
+  /// Position of the first unprintable byte: no UTF-8, or a control character other than a
   /// tabulator; npos if there is none.
   std::size_t
   find_unprintable(std::string_view text);
 
-  /// Any bytes as UTF-8 without control characters: bytes that are none become \x and two digits.
+  /// Any bytes as UTF-8 without control characters: invalid bytes become \x and two digits.
   std::string
   printable(std::string_view bytes);
 
@@ -27,8 +27,8 @@ namespace Exemplar
   std::string
   joined(const std::vector<std::string> &words, std::string_view separator = ", ");
 
-  /// A message as it may be shown: printable, without the middle of what is longer than a screen,
-  /// and in one paragraph but for lists, whose lines begin with two blanks.
+  /// A message in the form to be shown: printable, without the middle of texts longer than a
+  /// screen, and in one paragraph except for lists, whose lines begin with two blanks.
   std::string
   message_text(std::string_view message);
 } // namespace Exemplar

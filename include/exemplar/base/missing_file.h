@@ -7,15 +7,15 @@
 
 namespace Exemplar
 {
-  /// What may be wrong with the name of a file that cannot be opened: quotes, ~, a pattern, several
-  /// names in one, a directory that there is not, a place beside the scene instead of the working
-  /// directory, or a name that is nearly that of a file beside, other than that of `not_meant`. One
-  /// sentence that begins with a blank; empty for files that there are.
+  /// Advice on the name of a file that cannot be opened: quotes, ~, a pattern, several names in
+  /// one, a missing directory, a place beside the scene instead of the working directory, or a name
+  /// close to that of a file beside, other than that of `not_meant`. One sentence that begins with
+  /// a blank; empty for existing files.
   std::string
   missing_file_remedy(const std::filesystem::path &file,
                       const std::filesystem::path &not_meant = {});
 
-  /// Throws UserError for a file that there is not, a directory, or a device. It should be `what`, and
+  /// Throws UserError for a missing file, a directory, or a device. The file should be `what`, and
   /// is not `not_meant`.
   void
   require_file(const std::filesystem::path &file,

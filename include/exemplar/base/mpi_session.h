@@ -4,15 +4,15 @@
 
 namespace Exemplar
 {
-  /// The right to start MPI, which a program gives by an object in its main(): multigrid needs
-  /// MPI even in one process, and starting it takes a tenth of a second, so that it is started
-  /// when the first multigrid operator is made. What was started here ends with this object,
-  /// which must outlive these operators. Where MPI runs already, by MPI_Init of a host program,
-  /// no such object is needed, and one that is there neither starts nor ends anything.
+  /// Permission to start MPI, which a program gives by an object in its main(): multigrid needs MPI
+  /// even in one process, and starting it takes a tenth of a second, so that it is started when the
+  /// first multigrid operator is made. MPI started here ends with this object, which must outlive
+  /// these operators. Where MPI is already running, by MPI_Init of a host program, no such object
+  /// is needed, and an existing one neither starts nor ends anything.
   class MpiSession
   {
   public:
-    /// At most one at a time.
+    /// Makes the session; at most one at a time.
     MpiSession();
 
     ~MpiSession();
@@ -22,8 +22,8 @@ namespace Exemplar
     operator=(const MpiSession &)
         = delete;
 
-    /// For those who call MPI: it runs afterwards. Any thread may call this. Throws UserError if it
-    /// does not run and there is no session to start it, or if it has ended before.
+    /// Ensure that MPI is running, before calls of MPI. Any thread may call this. Throws UserError
+    /// if it is not running and there is no session to start it, or if it has ended before.
     static void
     require();
   };

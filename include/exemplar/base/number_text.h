@@ -13,8 +13,8 @@
 
 namespace Exemplar
 {
-  /// A number with as many digits as tell it from its neighbours; empty if it is not
-  /// finite, because no file of ours holds a NaN.
+  /// The shortest decimal text that reproduces a number; empty if it is not finite, because no file
+  /// of ours holds a NaN.
   inline std::string
   shortest_text(const double value)
   {
@@ -35,8 +35,9 @@ namespace Exemplar
     return buffer;
   }
 
-  /// The number that the whole text is in decimal digits: no blanks, no sign +, no infinity, no NaN, and
-  /// nothing that the type cannot hold. Fractions and powers of ten only where the type has them.
+  /// The number that the whole text represents: no blanks, no sign +, no infinity, no NaN, and
+  /// nothing outside the range of the type. Fractions and powers of ten only where the type has
+  /// them.
   template <typename Number>
   std::optional<Number>
   decimal_number(const std::string_view text)
@@ -49,7 +50,7 @@ namespace Exemplar
     return number;
   }
 
-  /// NaN unless the whole text is a number.
+  /// The number that the whole text represents, or NaN.
   inline double
   parse_number(const std::string &text)
   {

@@ -6,7 +6,7 @@
 
 namespace Exemplar
 {
-  /// A directory that stays the same one if its path comes to lead elsewhere.
+  /// An open directory, which stays the same if its path comes to lead elsewhere.
   class OpenDirectory
   {
   public:
@@ -19,15 +19,15 @@ namespace Exemplar
     operator=(const OpenDirectory &)
         = delete;
 
-    /// Negative if it could not be opened.
+    /// The descriptor; negative if it could not be opened.
     int
     get_descriptor() const
     {
       return descriptor;
     }
 
-    /// Whether the path still leads to this directory, which may have been removed, and another made in
-    /// its place. Of one that could not be opened nothing is known, and it counts as in place.
+    /// Whether the path still leads to this directory, rather than to another one after a removal.
+    /// A directory that could not be opened counts as in place.
     bool
     is_in_place() const;
 

@@ -6,8 +6,8 @@
 
 namespace Exemplar
 {
-  /// An empty directory that nobody else may look into. It is removed in the end, with what is in
-  /// it; where its process was killed, the next one that needs such a directory does it.
+  /// A new empty directory without access for others. It is removed by the destructor, with its
+  /// contents; after a crash, by the next process that makes such a directory.
   class PrivateDirectory
   {
   public:
@@ -31,13 +31,13 @@ namespace Exemplar
     int                   lock = -1;
   };
 
-  /// Takes the lock by which others see that a file or directory is in use, for as long as the
-  /// descriptor is open, which is returned. Negative if there is no such file, or if it is locked.
+  /// Locks a file or directory as in use, for as long as the returned descriptor is open. Negative
+  /// if there is no such file, or if it is locked.
   int
   lock_in_use(const std::filesystem::path &path);
 
-  /// Removes what processes that were killed have left: files and directories of this user whose
-  /// names begin with `prefix` and that nobody has locked by lock_in_use().
+  /// Removes leftovers of killed processes: files and directories of this user whose names begin
+  /// with `prefix` and that are not locked by lock_in_use().
   void
   remove_leftovers(const std::filesystem::path &directory, const std::string &prefix);
 } // namespace Exemplar

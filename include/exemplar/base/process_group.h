@@ -7,13 +7,13 @@
 
 namespace Exemplar
 {
-  /// Processes that run a program together, seen from one of them.
+  /// The processes that run a program together, as seen by one of them.
   struct ProcessGroup
   {
     unsigned int n_processes = 1;
-    unsigned int process     = 0; ///< which of them this is
+    unsigned int process     = 0; ///< index of this process
 
-    /// To be called by all: returns when all have called it.
+    /// Barrier: to be called by all, returns when all have called it.
     std::function<void()> wait_for_all = [] {};
 
     /// Whether this is the process that prints, and writes files.
@@ -23,7 +23,7 @@ namespace Exemplar
       return process == 0;
     }
 
-    /// Do what the root does alone.
+    /// Run `action` on the root alone.
     template <typename Action>
     void
     at_root(const Action &action) const
@@ -32,7 +32,7 @@ namespace Exemplar
         action();
     }
 
-    /// A stream at the root; elsewhere one that shows nothing.
+    /// `out` at the root; elsewhere a stream that discards its output.
     std::ostream &
     of_root(std::ostream &out) const
     {

@@ -15,18 +15,19 @@
 
 namespace Exemplar
 {
-  /// Runs a program in copies of this process as it is when the server is made, so that loading the
-  /// program is paid once: the server is such a copy, which makes another for each run. Make it before
-  /// anything has begun that a run of the program begins by itself: threads, MPI, random numbers.
+  /// Runs a program in copies of this process in its state at construction, so that the program is
+  /// loaded only once: the server is such a copy, which makes another for each run. To be made
+  /// before anything begins that a run of the program begins by itself: threads, MPI, random
+  /// numbers.
   class ProgramServer
   {
   public:
-    /// What main() does, and returns.
+    /// The function main().
     using Main = std::function<int(int argc, char *argv[])>;
 
     explicit ProgramServer(const Main &main);
 
-    /// Ends the server, and with it what it runs.
+    /// Ends the server and its run.
     ~ProgramServer();
 
     ProgramServer(const ProgramServer &) = delete;
@@ -34,8 +35,8 @@ namespace Exemplar
     operator=(const ProgramServer &)
         = delete;
 
-    /// As run_child(). If the server is killed, so is the run, which has ended in the same way; further
-    /// runs are made by run_child().
+    /// Run the program as run_child() does. If the server is killed, so is the run, which counts as
+    /// ended in the same way; further runs are made by run_child().
     ChildEnd
     run(const std::vector<std::string> &arguments,
         const std::filesystem::path    &log,
@@ -43,7 +44,7 @@ namespace Exemplar
         const std::function<bool()>    &stop);
 
   private:
-    /// Returns the status that waitpid() tells.
+    /// End the server; returns its status by waitpid().
     int
     end_server();
 

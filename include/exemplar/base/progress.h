@@ -11,9 +11,9 @@
 
 namespace Exemplar
 {
-  /// Steps done and time left: a bar on a terminal, a line every few seconds
-  /// elsewhere. A step that takes long shows that it goes on, whatever it computes meanwhile:
-  /// a thread looks at the clock. Nothing but the display depends on that.
+  /// Display of steps done and time left: a bar on a terminal, a line every few seconds elsewhere.
+  /// A long step is shown to go on, whatever it computes meanwhile, by a thread that watches the
+  /// clock. Only the display depends on that.
   class Progress
   {
   public:
@@ -33,17 +33,17 @@ namespace Exemplar
 
     ~Progress();
 
-    /// The step after those that are done is under way, and has come to what `note` says. From
-    /// the first call on steps that take long are shown.
+    /// Report that the step after those done is under way, with a `note` on its state. From the
+    /// first call on long steps are shown.
     void
     go_on(const std::string &note);
 
-    /// The same, of step `step`: those before it are done. For steps that take unlike times, of which
-    /// none tells how long the others will take.
+    /// Report that step `step` is under way, and those before it are done, as go_on(). For steps of
+    /// unlike durations, none of which predicts the others.
     void
     go_on_with(unsigned int step, const std::string &note);
 
-    /// Step `step` is done; `note` is shown beside it.
+    /// Report that step `step` is done; `note` is shown beside it.
     void
     update(unsigned int step, const std::string &note);
 
@@ -54,15 +54,15 @@ namespace Exemplar
   private:
     using Clock = std::chrono::steady_clock;
 
-    /// What the thread does.
+    /// The function of the thread.
     void
     watch();
 
-    /// When the step under way is to be shown next.
+    /// Time at which the step under way is to be shown next.
     Clock::time_point
     next_sign() const;
 
-    /// Show `note` behind the step and how long it has taken or will take.
+    /// Show the step, its past or expected duration, and `note`.
     void
     show(unsigned int step, const std::string &duration, const std::string &note);
 
@@ -77,7 +77,7 @@ namespace Exemplar
     std::mutex              mutex; ///< guards the members below, and `out`
     std::condition_variable changed;
     unsigned int            done;
-    std::string             under_way; ///< what the step after it has come to
+    std::string             under_way; ///< note on the step after `done`
     Clock::time_point       step_begin;
     Clock::time_point       last_shown;
     bool                    line_open = false;

@@ -11,16 +11,16 @@
 #include <streambuf>
 #include <string>
 
-// A sealed file ends in the SHA-256 of all its bytes before, so that one which was damaged is told
-// from a whole one. The seal has the form of a section of a gmsh .msh file, which may carry one.
+// A sealed file ends in the SHA-256 of all bytes before, by which damage is detected. The seal has
+// the form of a section of a gmsh .msh file, which may carry one.
 
 namespace Exemplar
 {
-  /// Passes bytes on to a stream that is to become a sealed file.
+  /// A stream buffer that passes bytes on to a stream, to make a sealed file.
   class SealingBuffer : public std::streambuf
   {
   public:
-    /// Keeps a reference.
+    /// Keeps a reference to `out`.
     explicit SealingBuffer(std::ostream &out) : out(out) {}
 
     /// Write the seal. To be called once, after all bytes.
@@ -39,7 +39,7 @@ namespace Exemplar
     Sha256        digest;
   };
 
-  /// Write the seal behind the bytes of a file. Throws std::runtime_error if that fails.
+  /// Append the seal to a file. Throws std::runtime_error if that fails.
   void
   seal_file(const std::filesystem::path &file);
 
@@ -47,12 +47,12 @@ namespace Exemplar
   std::string
   sealed(const std::string &bytes);
 
-  /// What stands in front of the seal; nothing if there is none, or not of these bytes.
+  /// The bytes before the seal; no value if there is none, or one of other bytes.
   std::optional<std::string>
   unsealed(std::string bytes);
 
-  /// Number of bytes in front of the seal; 0 if there is none, if it is not of these bytes, or if
-  /// this is no file that can be read.
+  /// Number of bytes before the seal; 0 if there is none or one of other bytes, or if the file
+  /// cannot be read.
   std::uintmax_t
   n_sealed_bytes(const std::filesystem::path &file);
 } // namespace Exemplar

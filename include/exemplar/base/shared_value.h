@@ -9,13 +9,13 @@
 
 namespace Exemplar
 {
-  /// A value that this process and the copies that are made of it from now on (in_process_copy()) see
-  /// alike, whoever stores it.
+  /// A value in memory shared by this process and copies that are made of it later
+  /// (in_process_copy()).
   template <typename T>
   class SharedValue
   {
   public:
-    /// Throws std::bad_alloc if there is no memory for it.
+    /// Throws std::bad_alloc if there is no shared memory.
     explicit SharedValue(const T value)
     {
       static_assert(std::atomic<T>::is_always_lock_free);

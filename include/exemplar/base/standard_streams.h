@@ -4,15 +4,15 @@
 
 namespace Exemplar
 {
-  /// Whatever becomes of standard input, output and error, no file and no computation suffers. One
-  /// that is closed is opened on nothing: otherwise the next file that is opened would have its number, and
-  /// what the program says would be written into it. Writing to a pipe whose reader has gone fails, where by
-  /// default it ends the process. To be called before anything is opened.
+  /// Protect files and computations from lost standard streams. A closed stream is opened on
+  /// nothing: otherwise the next file opened would get its number, and the program's output would
+  /// be written into it. Writing to a pipe whose reader has gone fails, where by default it ends
+  /// the process. To be called before anything is opened.
   void
   secure_standard_streams();
 
-  /// Throws UserError if something that was written to standard output has not arrived, because the disk is
-  /// full, say. A reader that has gone has seen what it wanted. For commands whose result is what they print.
+  /// Throws UserError if output to standard output has been lost, because the disk is full, say. A
+  /// reader that has gone is no error. For commands whose result is what they print.
   void
   require_printed();
 } // namespace Exemplar

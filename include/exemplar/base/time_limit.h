@@ -9,21 +9,21 @@
 
 namespace Exemplar
 {
-  /// How long another process may take: so many seconds of processor time, of all its threads and of
-  /// those of its children that have ended, since a machine that others use, too, may leave it little of
-  /// the clock. As one that sleeps takes none, it may take thirty times as much of the clock.
+  /// Time limit of another process: in seconds of processor time of all its threads and of its
+  /// children that have ended, since on a shared machine wall-clock time says little. As a sleeping
+  /// process takes none, the limit of wall-clock time is thirty times as much.
   class TimeLimit
   {
   public:
-    /// From now on.
+    /// A limit that begins now.
     explicit TimeLimit(double processor_seconds);
 
-    /// What the process has gone beyond, in words: "5 s of processor time", or "150 s". It must not have
-    /// been waited for.
+    /// The limit that the process has exceeded, in words: "5 s of processor time", or "150 s". It
+    /// must not have been waited for.
     std::optional<std::string>
     exceeded_by(pid_t process) const;
 
-    /// Seconds of the clock until now.
+    /// Wall-clock seconds since the beginning.
     double
     seconds() const;
 

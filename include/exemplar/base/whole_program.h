@@ -4,7 +4,7 @@
 
 namespace Exemplar
 {
-  /// The last sentence of errors about what ./demo.sh does not build (EXEMPLAR_SCENES_ONLY).
+  /// The last sentence of errors about parts that ./demo.sh does not build (EXEMPLAR_SCENES_ONLY).
   constexpr const char *build_whole_program
       = "Build all of exemplar: cmake --preset release && cmake --build --preset release";
 } // namespace Exemplar

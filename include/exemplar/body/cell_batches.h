@@ -14,27 +14,27 @@
 
 namespace Exemplar
 {
-  /// The quadrature points of the cells in batches, as CellArrays describes them, with the rotation of
-  /// each and what its law remembers.
+  /// The data of the quadrature points in SIMD batches, in the layout of CellArrays, with each
+  /// point's rotation and the history variables of its law.
   class CellBatches
   {
   public:
-    /// The space must outlive the batches.
+    /// `fe_space` must outlive this.
     CellBatches(const FESpace          &fe_space,
                 const Material         &material,
                 LawsOfCells             laws,
                 const ExampleConstants &examples);
 
-    /// The laws have other constants from now on; what they remember stays.
+    /// Replace the laws' constants; their history stays.
     void
     set_constants(const Material &material, const ExampleConstants &examples);
 
-    /// What loops see that are the same for all laws.
+    /// The arrays for loops that are the same for all laws.
     CellArrays
     arrays();
 
-    /// Call function(cells) for each law with what loops see that are for its cells alone; those that
-    /// update rotations write them here.
+    /// Call function(cells) for each law, with the arrays for loops over its cells alone. Loops
+    /// that update rotations write them here.
     template <typename Function>
     void
     for_each_law(CellArrays cells, const Function &function)
@@ -56,7 +56,7 @@ namespace Exemplar
       return laws[fe_space.cell_of(point)];
     }
 
-    /// The constants of a point: those of its law, or CellMaterial, with which all begin.
+    /// The constants of a point: those of its law, or CellMaterial, which all of them begin with.
     template <typename Constants>
     Constants
     constants(const unsigned int point) const
@@ -66,7 +66,8 @@ namespace Exemplar
                                      { return of_law.constants[batch_index(point, n, k)]; });
     }
 
-    /// A point with the rotation R and the deformation gradient F, of which Cell is the law.
+    /// The constitutive state of a point with rotation R and deformation gradient F, where Cell is
+    /// its law.
     template <typename Cell>
     Cell
     cell(const unsigned int point, const Matrix3<double> &R, const Matrix3<double> &F) const
@@ -79,7 +80,7 @@ namespace Exemplar
       return state;
     }
 
-    /// Call function(cell) with that of a point, whatever its law is.
+    /// Call function(cell) with cell() of a point, for whichever law it has.
     template <typename Function>
     auto
     with_cell(const unsigned int     point,
@@ -92,30 +93,30 @@ namespace Exemplar
           [&](auto model) { return function(cell<typename decltype(model)::type>(point, R, F)); });
     }
 
-    /// Whether any law does.
+    /// Whether any law has history variables.
     bool
     remembers() const
     {
       return n_history() > 0;
     }
 
-    /// What the laws remember, as State::history has it; empty if none remembers anything.
+    /// History variables, in the layout of State::history; empty if no law has any.
     std::vector<double>
     history() const;
 
-    /// From now on they remember this; empty: nothing has happened.
+    /// Set the history variables; empty: to zero, as before any deformation.
     void
     set_history(const std::vector<double> &history);
 
-    /// From now on they are in a step of that size [s], infinite in statics; 0: in none, so that what they
-    /// remember stays.
+    /// Set the size of the current step [s], infinite in statics; 0: no step, in which history
+    /// variables stay.
     void
     set_step_size(const double new_step_size)
     {
       step_size = new_step_size;
     }
 
-    /// Number k of what the law of a point remembers; 0 if it does not know such a number.
+    /// History variable k of a point; 0 if its law has no such variable.
     double
     history_number(const unsigned int point, const std::size_t k) const
     {
@@ -124,7 +125,7 @@ namespace Exemplar
       return k < n ? of_law.history[batch_index(point, n, k)] : 0.;
     }
 
-    /// Whether some law has that trait, the number of something that it remembers.
+    /// Whether some law has the history variable whose index is this member of ModelTraits.
     bool
     has_trait(std::size_t ModelTraits::*number) const
     {
@@ -133,7 +134,7 @@ namespace Exemplar
                          { return traits_of(of_law.law).*number != ModelTraits::not_remembered; });
     }
 
-    /// Whether all cells have an energy of J = det F, which patches may have the mean of.
+    /// Whether the energies of all cells depend on J = det F, which patches may replace by a mean.
     bool
     knows_volume() const
     {
@@ -157,16 +158,16 @@ namespace Exemplar
       return nodes[batch_index(point, n_nodes, a)];
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
   private:
-    /// What the cells of one law have, in batches of all cells.
+    /// Data of the cells of one law, in batches of all cells.
     struct OfLaw
     {
       CellLaw                       law;
-      dealii::AlignedVector<double> volumes; ///< 0 in cells of others; empty if there are none
+      dealii::AlignedVector<double> volumes; ///< 0 in cells of other laws; empty if there are none
       dealii::AlignedVector<double> constants, history;
     };
 
@@ -178,7 +179,7 @@ namespace Exemplar
                            [&](const OfLaw &of_law) { return of_law.law == law; });
     }
 
-    /// Numbers that State::history has for each point: those of the law that remembers most.
+    /// Numbers a point in State::history: the greatest number of history variables of a law.
     std::size_t
     n_history() const;
 
@@ -188,7 +189,7 @@ namespace Exemplar
     void
     fill_constants(const Material &material, OfLaw &of_law) const;
 
-    /// Slots behind the last point repeat it.
+    /// The cell of a slot; slots behind the last point repeat it.
     unsigned int
     cell_of_slot(const std::size_t slot) const
     {
@@ -200,7 +201,7 @@ namespace Exemplar
     ExampleConstants              examples;
     double                        step_size = 0.;
     const std::size_t             n_points;
-    const std::size_t             n_nodes; ///< of each
+    const std::size_t             n_nodes; ///< number of nodes of each cell
     std::vector<int>              nodes;
     dealii::AlignedVector<double> gradients;
     dealii::AlignedVector<double> volumes;

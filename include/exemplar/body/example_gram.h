@@ -13,12 +13,12 @@ namespace Exemplar
 {
   class ExamplePoses;
 
-  /// What pairs of examples cost in energy, and what they ask of the volumes of patches: both are sums
-  /// over the strains of examples, Eqs. (9) and (25).
+  /// The Gram matrix of the examples' strains in energy, Eq. (9), and the dilatations of patches by
+  /// their weights, Eq. (25).
   class ExampleGram
   {
   public:
-    /// `cell_material` is that of the cells' own energy, beside which that of `patches` stands, null
+    /// `cell_material` is that of the cells' energy without the part of `patches`, which are empty
     /// where there are none.
     void
     compute(const ExamplePoses &poses,
@@ -27,26 +27,29 @@ namespace Exemplar
             const Material     &cell_material,
             const Patches      &patches);
 
-    /// eta^2 sum V E_i : C : E_j for all pairs of weights [J]; with patches, the volume part by Eq. (25).
+    /// eta^2 sum V E_i : C : E_j for all pairs of weights [J]; with patches, the volume part by
+    /// Eq. (25).
     const dealii::FullMatrix<double> &
     matrix() const
     {
       return gram;
     }
 
-    /// Add to `sum` so many times what H of the blended energy has beyond it, sum V eta (1 - eta)
-    /// E_i : C : E_j with the importance of each cell, of patches its mean [J].
+    /// Add `factor` times the further part of H in the blended energy, sum V eta (1 - eta) E_i : C
+    /// : E_j [J], with eta of each cell, or its mean over each patch. Where examples have C_e, the
+    /// form C_y of Eq. (38) instead.
     void
     add_blended(double factor, dealii::FullMatrix<double> &sum) const;
 
-    /// eta dtheta_p/dw of a patch, the mean of eta tr E over its volume, for a weight; Eq. (25).
+    /// eta dtheta_p/dw of a patch by a weight, Eq. (25): the mean of eta tr E over the volume of
+    /// the patch.
     double
     patch_dilatation(const unsigned int patch, const unsigned int weight) const
     {
       return patch_dilatations(patch, weight);
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -65,7 +68,8 @@ namespace Exemplar
     void
     add_patches(const FESpace &fe_space, const Material &cell_material, const Patches &patches);
 
-    /// What H has beyond the Gram matrix where examples have an elasticity of their own.
+    /// Compute the form C_y of Eq. (38), the part of H beyond the Gram matrix where examples have
+    /// C_e.
     void
     compute_excess(const ExamplePoses &poses,
                    const FESpace      &fe_space,
@@ -76,7 +80,7 @@ namespace Exemplar
     dealii::FullMatrix<double> patch_dilatations; ///< patch, weight; empty without patches
     dealii::FullMatrix<double> gram;
     dealii::FullMatrix<double>
-        blended; ///< see add_blended(), where the importance varies or examples have C_e; else empty
+        blended; ///< see add_blended(), where importance varies or examples have C_e; else empty
   };
 } // namespace Exemplar
 

@@ -10,7 +10,7 @@ namespace Exemplar
 {
   class KeyTable;
 
-  /// How the blended strain acts, Eq. (5).
+  /// How the examples' strain enters the energy, Eq. (5).
   enum class ExampleEnergy
   {
     scaled,
@@ -18,7 +18,7 @@ namespace Exemplar
     mixed
   };
 
-  /// Which weights are allowed, and who finds them.
+  /// Admissible example weights, or prescribed ones.
   enum class WeightRule
   {
     simplex,
@@ -26,17 +26,17 @@ namespace Exemplar
     prescribed
   };
 
-  /// Which strains of the body are to be like those of the examples.
+  /// The part of the strain that examples act on, Eq. (31).
   enum class ActsOn
   {
     all,
-    shape,        ///< without change of volume
-    volume,       ///< what a pressure makes
-    along_fibres, ///< what a tension along them makes
-    across_fibres ///< all but that
+    shape,        ///< the part without change of volume
+    volume,       ///< the strain of a pressure
+    along_fibres, ///< the strain of a tension along the fibres
+    across_fibres ///< the strain without along_fibres
   };
 
-  /// The isotropic elasticity of the wish to be like the examples; a constant that is absent is the
+  /// The isotropic elasticity C_e of the examples, Eq. (38); a constant without value is the
   /// material's.
   struct ExampleElasticity
   {
@@ -53,7 +53,7 @@ namespace Exemplar
   struct ExampleParameters
   {
     std::vector<std::string> poses;
-    double                   attach = 30.; ///< of poses that are surfaces
+    double                   attach = 30.; ///< Examples/Attach, of poses that are surfaces
     std::string              pose_functions;
     bool                     include_rest_pose = true;
     double                   importance        = 0.8; ///< eta
@@ -69,7 +69,7 @@ namespace Exemplar
     bool                     weights_per_region  = false;
     double                   region_blend_length = 0.; ///< [m]
     std::vector<std::string> weight_maps;              ///< FILE:ATTRIBUTE, one a region
-    bool in_single_precision = false; ///< strains, where steps need no more; no key of scene files
+    bool in_single_precision = false; ///< store strains in single precision; no key of scenes
 
     /// Whether painted maps say where weights act.
     bool
@@ -81,14 +81,14 @@ namespace Exemplar
     void
     declare(KeyTable &keys);
 
-    /// Whether they need to know where fibres lie.
+    /// Whether examples need fibre directions.
     bool
     need_fibres() const
     {
       return in_use() && (acts_on == ActsOn::along_fibres || acts_on == ActsOn::across_fibres);
     }
 
-    /// C_e of Eq. (38). Throws UserError for what is no such constant.
+    /// C_e of Eq. (38). Throws UserError for an invalid constant.
     ExampleElasticity
     elasticity() const;
 
@@ -96,15 +96,15 @@ namespace Exemplar
     bool
     in_use() const;
 
-    /// How many examples there are, the rest pose among them where it is included.
+    /// Number of examples, including the rest pose if it is one.
     std::size_t
     n_examples() const;
 
-    /// sigma [J] of the ridge on the weights; `unit_energy` is sum E V [J].
+    /// Coefficient sigma [J] of the ridge on the weights; `unit_energy` is sum E V [J].
     double
     ridge(double unit_energy) const;
 
-    /// Throws UserError for what no pattern can tell.
+    /// Throws UserError for what a pattern of the keys cannot exclude.
     void
     check() const;
 

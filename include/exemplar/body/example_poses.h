@@ -18,40 +18,42 @@
 
 namespace Exemplar
 {
-  /// sum E V over the cells [J]: the scale of the energy of a strain of 1.
+  /// sum E V over the cells [J]: the energy scale of a strain of 1.
   double
   unit_energy(const FESpace &fe_space, const Material &material);
 
-  /// The same with the moduli of the wish to be like the examples: the scale of the weights' form.
+  /// sum E_e V [J] with Young's moduli of the examples' elasticity: the scale of the weights'
+  /// quadratic form.
   double
   unit_energy_of_examples(const FESpace &fe_space, const Material &material);
 
-  /// Which strains of the poses are taken.
+  /// How strains are computed from the poses.
   struct StrainRule
   {
     ActsOn acts_on;
     bool   is_single; ///< rounded to single precision
   };
 
-  /// A pose that the body likes.
+  /// An example pose.
   struct ExamplePose
   {
     std::string            name;      ///< the file or the formula that gives it, for messages
-    dealii::Vector<double> positions; ///< of the nodes, by degree of freedom [m]
+    dealii::Vector<double> positions; ///< node positions by degree of freedom [m]
   };
 
-  /// The example poses and the strains that they ask for, eta E_i at every quadrature point, Eqs. (4)
-  /// and (5), computed once; eta is Examples/Importance. E_i is the part that examples act on, Eq. (31).
-  /// Where examples have an elasticity of their own, D_i of Eq. (38) stands for eta E_i.
-  /// Example 0 is the rest pose where it is included. Each example has one weight or,
-  /// with Weights per region, one a region: weight r * size() + i is that of example i in
-  /// region r. Of a scene without examples it is empty.
+  /// The example poses and their strains eta E_i at every quadrature point, Eqs. (4) and (5),
+  /// computed once; eta is Examples/Importance. E_i is the part that examples act on, Eq. (31).
+  /// Where examples have an elasticity of their own, D_i of Eq. (38) replaces eta E_i. Example 0 is
+  /// the rest pose where it is included. Each example has one weight or, with Weights per region,
+  /// one a region: weight r * size() + i is that of example i in region r. Empty in a scene without
+  /// examples.
   class ExamplePoses
   {
   public:
-    /// Those of Examples/Poses are among `named_poses`, the values of Examples/Weight maps in each cell
-    /// are `painted`; `cell_material` is that of the cells' own energy, beside which that of `patches`
-    /// stands, null where there are none. Throws UserError for a pose that is not.
+    /// `named_poses` contains the poses of Examples/Poses, and `painted` the values of
+    /// Examples/Weight maps in each cell; `cell_material` is that of the cells' energy without the
+    /// part of `patches`, which are empty where there are none. Throws UserError for an invalid
+    /// pose.
     ExamplePoses(const ExampleParameters                &parameters,
                  const LawsOfCells                      &laws,
                  const Mesh                             &mesh,
@@ -68,7 +70,7 @@ namespace Exemplar
       return poses.size();
     }
 
-    /// Those with weights of their own; each region's weights sum to one.
+    /// The regions, which have separate weights; the weights of each region sum to one.
     const RegionShares &
     get_regions() const
     {
@@ -81,28 +83,28 @@ namespace Exemplar
       return regions.n_regions() * size();
     }
 
-    /// From now on this importance, greater than 0, in a body of this material; see the constructor.
+    /// Set the importance, greater than 0, and the material; see the constructor.
     void
     set_parameters(double importance, const Material &cell_material, const Patches &patches);
 
-    /// From now on in a body of this material.
+    /// Replace the material; see the constructor.
     void
     set_material(const Material &cell_material, const Patches &patches);
 
-    /// From now on example i is at these places of the nodes [m], of the vertices alone or of all. What
-    /// depends on it is made anew by set_parameters(). Throws UserError for curved edges.
+    /// Replace the nodes' positions [m] in example i, those of the vertices or of all nodes.
+    /// Dependent data are updated by set_parameters(). Throws UserError for curved edges.
     void
     set_pose(unsigned int i, const std::vector<dealii::Point<3>> &places);
 
-    /// Volume of each region over that of the body, with shares counted; they sum to one.
+    /// Volume fraction of each region, weighted by shares; they sum to one.
     std::vector<double>
     volume_fractions() const;
 
-    /// What each weight acts on [m^3].
+    /// Volume of the region that each weight acts on [m^3].
     std::vector<double>
     volumes_of_weights() const;
 
-    /// Of example i.
+    /// Name of example i.
     const std::string &
     name(const unsigned int i) const
     {
@@ -125,7 +127,7 @@ namespace Exemplar
       return load_stored(strains.data(), point, n_strained(), i - first_strained);
     }
 
-    /// What the kernels see of the examples.
+    /// The arrays of the examples for the kernels.
     ExampleArrays
     arrays() const
     {
@@ -135,8 +137,8 @@ namespace Exemplar
                regions.list(), in_single.empty() ? nullptr : in_single.data() };
     }
 
-    /// Call function(weight, example, share) for the weights that matter at a point. The
-    /// rest pose, where it is included, has no strain and is left out.
+    /// Call function(weight, example, share) for the weights that act at a point. The rest pose,
+    /// where it is included, has no strain and is left out.
     template <typename Function>
     void
     for_each_weight(const unsigned int point, const Function &function) const
@@ -149,7 +151,7 @@ namespace Exemplar
                        });
     }
 
-    /// Whether a weight changes the strain anywhere: that of the rest pose does not.
+    /// Whether a weight changes the strain anywhere; not so for the rest pose.
     bool
     is_strained(const unsigned int weight) const
     {
@@ -162,7 +164,7 @@ namespace Exemplar
       return regions.n_regions() * n_strained();
     }
 
-    /// The number of a strained weight among these.
+    /// The index of a weight among the strained ones.
     unsigned int
     strained_index(const unsigned int weight) const
     {
@@ -194,7 +196,7 @@ namespace Exemplar
       return example_constants;
     }
 
-    /// What pairs of them cost in energy, and what they ask of patches.
+    /// The examples' Gram matrix in energy, and their dilatations of patches.
     const ExampleGram &
     get_gram() const
     {
@@ -207,7 +209,7 @@ namespace Exemplar
       return warnings;
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -229,7 +231,7 @@ namespace Exemplar
     const unsigned int             first_strained;
     const StrainRule               rule;
     dealii::AlignedVector<double>  strains;   ///< eta E_i, as ExampleArrays has them
-    dealii::AlignedVector<float>   in_single; ///< then, once more
+    dealii::AlignedVector<float>   in_single; ///< the same in single precision, if rule.is_single
     std::vector<double>            strain_norms;
     ExampleGram                    gram;
     const std::vector<std::string> warnings;

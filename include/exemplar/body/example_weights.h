@@ -13,27 +13,27 @@
 
 namespace Exemplar
 {
-  /// How far weights are from the minimum of the energy at given positions, Eq. (13).
+  /// Residual of the optimality conditions of the weights at given positions, Eq. (13).
   struct WeightResidual
   {
-    std::vector<double> multipliers; ///< of each region's sum of weights [J]
+    std::vector<double> multipliers; ///< multiplier of each region's sum of weights [J]
     double deviation = 0.; ///< greatest violation of the conditions of Karush, Kuhn and Tucker [J]
   };
 
-  /// How much of the blended energy is in `energy`; the rest is the scaled one, Eq. (5).
+  /// Fraction p of the blended energy in `energy`; the rest is the scaled one, Eq. (5).
   double
   blended_part(ExampleEnergy energy);
 
-  /// The rule by which example weights are found: whether they are prescribed functions of time or
-  /// unknowns, their bounds and sums, and the part of the energy that depends on them alone. Weight
-  /// r * n_per_region() + i is that of example i in region r; the weights of a region sum to one.
-  /// A scene without examples has no weights, and all loops over them are empty.
+  /// The example weights: prescribed functions of time or unknowns, their bounds and sums, and the
+  /// part of the energy that depends on them alone. Weight r * n_per_region() + i is that of
+  /// example i in region r; the weights of a region sum to one. A scene without examples has no
+  /// weights, and all loops over them are empty.
   class ExampleWeights
   {
   public:
-    /// `unit_energy` is sum E V over the cells [J], `volume_fractions` the part of each region in
-    /// the body. Throws UserError for prescribed weights that do not sum to one in every step, and
-    /// for weights without penalty if the examples are affinely dependent.
+    /// `unit_energy` is sum E V over the cells [J]. Throws UserError for prescribed weights that do
+    /// not sum to one in every step, and for weights without penalty if the examples are affinely
+    /// dependent.
     ExampleWeights(const ExampleParameters &parameters,
                    const ExamplePoses      &poses,
                    double                   unit_energy,
@@ -51,39 +51,39 @@ namespace Exemplar
       return poses.get_regions().n_regions();
     }
 
-    /// Of the examples as they are now, in a body of this unit energy [J]; see the constructor.
+    /// Recompute the quadratic form after a change of the examples, with this unit energy [J]; see
+    /// the constructor.
     void
     set_parameters(const ExampleParameters &parameters, double unit_energy);
 
-    /// From now on unknown weights are these, of all regions, because bounds leave no others; empty: steps find
-    /// them again. Throws UserError, with nothing changed, unless they are to be found on the simplex and
-    /// these lie there.
+    /// Fix the unknown weights at `values`, one for each weight; an empty vector frees them. Throws
+    /// UserError, and changes nothing, unless Examples/Weights is simplex and the values lie on it.
     void
     hold(std::vector<double> values);
 
-    /// Throws UserError for what hold() does not take.
+    /// Throws UserError for values that hold() rejects.
     void
     check_held(const std::vector<double> &values) const;
 
-    /// As many as there are examples.
+    /// Number of weights in each region, that of examples.
     unsigned int
     n_per_region() const
     {
       return poses.size();
     }
 
-    /// What they remember; nothing unless a scene asks for it.
+    /// Yield and creep of the weights; empty unless the scene asks for it.
     const WeightMemory &
     get_memory() const
     {
       return memory;
     }
 
-    /// From now on they are compared with those of this step.
+    /// Set the step, with whose start the memory compares the weights.
     void
     set_step(WeightStep step);
 
-    /// Those that steps have to find: none if they are prescribed.
+    /// Number of unknown weights; 0 if they are prescribed.
     unsigned int
     n_unknown() const
     {
@@ -100,7 +100,7 @@ namespace Exemplar
     std::vector<double>
     at(double time) const;
 
-    /// What these weights are at time t: others if they are prescribed or held.
+    /// The weights at time t: prescribed or held values, or else `weights`.
     std::vector<double>
     at(const double time, const std::vector<double> &weights) const
     {
@@ -109,21 +109,21 @@ namespace Exemplar
       return held.empty() ? weights : held;
     }
 
-    /// Prescribed weights at t = 0; one on the first example if they are unknown.
+    /// Initial weights: prescribed or held ones; otherwise 1 on the first example of each region.
     std::vector<double>
     initial() const;
 
-    /// The quadratic form H, Eq. (9), of the unknown ones, their sums and coupled columns, for linear
-    /// systems. It is empty where none is unknown.
+    /// The quadratic form H, Eq. (9), the constraints on sums and the coupled columns of the
+    /// unknown weights, for linear systems. Empty without unknown weights.
     const WeightForm &
     weight_form() const
     {
       return form;
     }
 
-    /// The second derivative by the weights of what depends on them alone: the ridge and
-    /// p eta (1 - eta) sum V E_i : C : E_j [J], where p is the blended part of the energy. Of unknown
-    /// weights.
+    /// The Hessian of the energy that depends on the weights alone: the ridge and p eta (1 - eta)
+    /// sum V E_i : C : E_j [J], where p is the blended part of the energy. For unknown weights
+    /// only.
     const dealii::FullMatrix<double> &
     penalty_matrix() const
     {
@@ -135,20 +135,21 @@ namespace Exemplar
     std::vector<double>
     best(const std::vector<double> &c, const std::vector<double> &start) const;
 
-    /// Of changes of these weights.
+    /// Limits on changes of the given weights.
     WeightLimits
     limits_of_changes(const std::vector<double> &weights) const;
 
-    /// What the sums of each region's weights lack to one.
+    /// One minus the sum of the weights, for each region.
     std::vector<double>
     missing_sums(const std::vector<double> &weights) const;
 
-    /// Add changes, with exact zeros at bounds, and exactly what is remembered, instead of their
-    /// rounding.
+    /// Add changes to the weights; those that are at a bound or a kink but for rounding get its
+    /// exact value.
     void
     add(const std::vector<double> &changes, std::vector<double> &weights) const;
 
-    /// From the energy's derivative by them, kinks aside [J].
+    /// Residual of the optimality conditions, from the derivative of the energy by the weights
+    /// without kinks [J].
     WeightResidual
     residual(const std::vector<double> &weights, const std::vector<double> &gradient) const;
 
@@ -158,7 +159,7 @@ namespace Exemplar
       return warnings;
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -172,18 +173,18 @@ namespace Exemplar
     void
     check_prescribed(const TimeAxis &axis) const;
 
-    /// Warns of examples that depend on each other; throws UserError where no ridge decides
-    /// between them.
+    /// Warns of affinely dependent examples; throws UserError where no ridge makes their weights
+    /// unique.
     void
     check_independence(double unit_energy, bool has_ridge);
 
     const ExamplePoses        &poses;
-    const bool                 bounded; ///< not below zero
+    const bool                 bounded; ///< whether weights are >= 0
     WeightMemory               memory;
     WeightForm                 form;
     dealii::FullMatrix<double> penalty;
-    std::vector<Expression>    prescribed; ///< one, or one a region
-    std::vector<double>        held;       ///< empty: nobody holds them
+    std::vector<Expression>    prescribed; ///< one for all regions, or one a region
+    std::vector<double>        held;       ///< weights of hold(); empty: free
     std::vector<std::string>   warnings;
   };
 } // namespace Exemplar

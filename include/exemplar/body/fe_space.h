@@ -17,12 +17,12 @@
 namespace Exemplar
 {
   /// The finite element space FE_SimplexP(1)^3 or FE_SimplexP(2)^3 on a mesh of straight edges.
-  /// Degree of freedom 3 i + c is component c of node i of its NodeNumbering. Linear elements have one
-  /// quadrature point a cell, quadratic ones four; those of cell c are the points c points_per_cell()
-  /// and following. Shape gradients at the points and the volumes that they stand for are taken from
-  /// deal.II's FEValues once and kept, because they never change and the hot loops need nothing else.
-  /// Nor does anything need deal.II's numbering by cells, so there is no DoFHandler, which would take
-  /// 100 bytes a cell.
+  /// Degree of freedom 3 i + c is component c of node i of its NodeNumbering. Linear elements have
+  /// one quadrature point a cell, quadratic ones four; those of cell c are the points c
+  /// points_per_cell() and following. Shape gradients and quadrature weights are computed once by
+  /// deal.II's FEValues and kept, because they never change and the hot loops need nothing else.
+  /// There is no DoFHandler, as deal.II's numbering of degrees of freedom is not needed and would
+  /// take 100 bytes a cell.
   class FESpace
   {
   public:
@@ -34,7 +34,7 @@ namespace Exemplar
       return kind;
     }
 
-    /// With the processes that have the other cells of the body.
+    /// The exchange with the processes that have the other cells of the body.
     const Exchange &
     exchange() const
     {
@@ -99,18 +99,18 @@ namespace Exemplar
       return { &shape_gradients[n * point], n };
     }
 
-    /// What a point stands for [m^3]: the cell's volume is the sum over its points.
+    /// Quadrature weight of a point [m^3]: the weights of a cell's points sum to its volume.
     double
     volume(const unsigned int point) const
     {
       return volumes[point];
     }
 
-    /// Add to values at the nodes of a cell what each has of an amount in the cell.
+    /// Distribute an amount in a cell to `values` at its nodes, by a rule.
     void
     share_out(double amount, ShareRule rule, unsigned int cell, std::vector<double> &values) const;
 
-    /// The same for a face.
+    /// Distribute an amount on a boundary face to `values` at its nodes, by a rule.
     void
     share_out(double               amount,
               ShareRule            rule,
@@ -124,7 +124,7 @@ namespace Exemplar
       return rest;
     }
 
-    /// Of a node.
+    /// Position of a node at rest [m].
     dealii::Point<3>
     rest_position(const unsigned int node) const
     {
@@ -134,11 +134,11 @@ namespace Exemplar
     double
     cell_volume(unsigned int cell) const;
 
-    /// Of the body.
+    /// Volume of the whole body at rest [m^3].
     double
     total_volume() const;
 
-    /// Deformation gradient at a point where the nodes are at `positions`.
+    /// Deformation gradient at a quadrature point for nodes at `positions`.
     Matrix3<double>
     deformation_gradient(const unsigned int point, const dealii::Vector<double> &positions) const
     {
@@ -155,12 +155,12 @@ namespace Exemplar
       return F;
     }
 
-    /// The forces [N] on the nodes() of a point's cell by a stress P [Pa] there, in that order and by
-    /// components: volume P g of a node with gradient g.
+    /// The nodal forces [N] of a stress P [Pa] at a point, on the nodes() of its cell in that
+    /// order, by components: volume P g for a node with shape gradient g.
     void
     nodal_forces(unsigned int point, const Matrix3<double> &P, std::vector<double> &forces) const;
 
-    /// Pattern of the nodal graph: all pairs of nodes that share a cell.
+    /// Sparsity pattern of the nodal graph: all pairs of nodes that share a cell.
     dealii::SparsityPattern
     nodal_pattern() const;
 
@@ -170,11 +170,11 @@ namespace Exemplar
     compute_mass_matrix(const std::vector<double>    &density_of_cell,
                         dealii::SparseMatrix<double> &mass) const;
 
-    /// The same for the nodes() of a cell with a volume and a density of 1.
+    /// The consistent mass matrix of a cell with volume 1 and density 1, on its nodes().
     dealii::FullMatrix<double>
     unit_mass_matrix() const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 

@@ -13,31 +13,33 @@
 
 namespace Exemplar
 {
-  /// Of a Fibre direction "from SELECTION to SELECTION".
+  /// The two selections of a Fibre direction "from SELECTION to SELECTION".
   struct FibreEnds
   {
     Selection from, to;
   };
 
-  /// Nothing for another text. Throws UserError, calling the text `key`, for "from" without " to ".
+  /// Parse a Fibre direction into its selections; none for formulas. Throws UserError, calling the
+  /// text `key`, for "from" without " to ".
   std::optional<FibreEnds>
   split_fibre_ends(const std::string &text, const std::string &key);
 
-  /// A text that has the files of the two selections absolute; others stay.
+  /// The text of a Fibre direction with absolute paths of the selections' files; formulas are
+  /// unchanged.
   std::string
   absolute_fibre_direction(const std::string &text, const std::filesystem::path &directory);
 
-  /// The axes of each cell at rest; empty if no material has a grain. `mesh` is a whole one; `named` nodes
-  /// are those of files and of the surface. Painted directions, three numbers a cell, stand instead of what
-  /// the parameters say. Throws UserError for a direction that is 0.
+  /// The material axes of each cell at rest; empty if no material has a grain. `mesh` is a whole
+  /// one; `named` are the nodes of files and of the surface. `painted` directions, three numbers a
+  /// cell, replace those of the parameters. Throws UserError for a direction that is 0.
   std::vector<GrainAxes>
   find_grain_axes(const MaterialParameters               &parameters,
                   const Mesh                             &mesh,
                   const NamedNodes                       &named,
                   const std::vector<std::vector<double>> &painted);
 
-  /// The gradient in each cell of the harmonic function that is 0 at the nodes `from` and 1 at the nodes
-  /// `to`, by linear elements; exactly 0 in parts of the body that hang on neither.
+  /// The gradient in each cell of the harmonic function that is 0 at the nodes `from` and 1 at the
+  /// nodes `to`, by linear elements; exactly 0 in parts of the body connected to neither.
   std::vector<dealii::Tensor<1, 3>>
   harmonic_gradients(const Mesh                      &mesh,
                      const std::vector<unsigned int> &from,

@@ -14,20 +14,20 @@
 
 namespace Exemplar
 {
-  /// Nodes of this process that move together, and how.
+  /// A handle's nodes in this process, and their prescribed motion.
   struct Handle
   {
     std::string               name;
     std::vector<unsigned int> nodes;
     std::vector<unsigned int> components;
     Expression                motion;
-    Expression                progress; ///< on the path, if there is one
-    std::optional<RigidPath>  path;     ///< of all of the handle to the pose that is followed
-    Motion                    function; ///< a program's, instead of all these
+    Expression                progress; ///< fraction of the path, if there is one
+    std::optional<RigidPath>  path;     ///< path of the whole handle to the pose followed
+    Motion                    function; ///< motion set by a program, instead of the others
     HoldingTime               time  = {};
     bool                      holds = true;
 
-    /// What it holds now: its nodes, or none.
+    /// Nodes that are held now: all of them, or none.
     const std::vector<unsigned int> &
     held_nodes() const
     {
@@ -35,19 +35,19 @@ namespace Exemplar
       return holds ? nodes : none;
     }
 
-    std::vector<unsigned int> places_in_path = {}; ///< of each node, among those of all processes
+    std::vector<unsigned int> places_in_path = {}; ///< index of each node in the whole handle
 
-    /// How far caught nodes are from where their motion would have them; empty if none are caught.
+    /// Offsets of caught nodes from their prescribed motion; empty if none are caught.
     std::vector<dealii::Tensor<1, 3>> offsets = {};
 
-    /// Of `nodes`, which are at `rest` at rest, at time t [s], by the motion alone. Throws SolverFailure
-    /// if a program's function gives what is not finite, and UserError if it gives not as many as there
-    /// are nodes.
+    /// Prescribed displacements of `nodes`, whose positions at rest are `rest`, at time t [s],
+    /// without offsets. Throws SolverFailure if a program's function is not finite, and UserError
+    /// if it does not give one displacement for each node.
     std::vector<dealii::Tensor<1, 3>>
     displacements(const std::vector<dealii::Point<3>> &rest, double time) const;
   };
 
-  /// The handle of a scene. Throws UserError as Handles says. All processes must call this.
+  /// Make a handle of the scene. Throws UserError as Handles does. Collective.
   Handle
   make_handle(const HandleParameters &parameters,
               const Mesh             &mesh,
@@ -55,19 +55,19 @@ namespace Exemplar
               const NamedPoses       &poses,
               const NamedNodes       &nodes);
 
-  /// Of its nodes.
+  /// Positions of a handle's nodes at rest [m].
   std::vector<dealii::Point<3>>
   rest_positions(const Handle &handle, const FESpace &fe_space);
 
-  /// What is odd about the ways of handles over the steps of the axis, in sentences with the remedy: some are
-  /// crushed as they turn, turn too far in a step, or go far beyond a pose.
+  /// Warnings about the motions of handles over the steps of the axis, in sentences with advice:
+  /// handles that are crushed as they turn, turn too far in a step, or go far beyond a pose.
   std::vector<std::string>
   review_of_motions(const std::vector<Handle> &handles,
                     const FESpace             &fe_space,
                     const TimeAxis            &axis);
 
-  /// A handle whose time is in no step of the axis, in words; empty if it is in one. Times of steps may be
-  /// off by `rounding` [s].
+  /// A sentence about a handle that holds in no step of the axis; empty if it holds in one. Times
+  /// of steps may be off by `rounding` [s].
   std::string
   describe_idle_time(const Handle &handle, const TimeAxis &axis, double rounding);
 } // namespace Exemplar

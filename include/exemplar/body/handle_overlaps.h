@@ -14,7 +14,7 @@ namespace Exemplar
   shared_nodes(const std::vector<Handle> &handles);
 
   /// Throws UserError if handles move a node that they share differently, by their displacements at
-  /// time t [s]; the same in all processes, which must all call this and the next.
+  /// time t [s]; the same on all processes. This and the next are collective.
   void
   check_agreement(const std::vector<Handle>                            &handles,
                   const std::set<unsigned int>                         &shared,
@@ -23,8 +23,8 @@ namespace Exemplar
                   const Mesh                                           &mesh,
                   const FESpace                                        &fe_space);
 
-  /// Throws UserError if a handle shares with another one what it has caught by time t [s]; times of steps
-  /// may be off by `rounding` [s].
+  /// Throws UserError if a handle shares caught nodes with another one at time t [s]; times of
+  /// steps may be off by `rounding` [s].
   void
   refuse_shared_catches(const std::vector<Handle> &handles,
                         double                     time,

@@ -11,8 +11,8 @@ namespace Exemplar
 {
   class KeyTable;
 
-  /// When a handle holds its nodes: in steps that begin in this span of time or, where it ends before it
-  /// begins, outside of the span between.
+  /// When a handle holds its nodes, by the time t at which a step begins: for from <= t < until or,
+  /// if until < from, outside [until, from).
   struct HoldingTime
   {
     double from  = 0.; ///< [s]
@@ -24,7 +24,8 @@ namespace Exemplar
       return from <= 0. && until == std::numeric_limits<double>::infinity();
     }
 
-    /// Whether a step that begins at time t [s] holds; `rounding` is what times may be off.
+    /// Whether the handle holds in a step that begins at time t [s]; times may be off by `rounding`
+    /// [s].
     bool
     holds(const double time, const double rounding) const
     {
@@ -32,8 +33,8 @@ namespace Exemplar
       return from < until ? is_caught && !is_let_go : is_caught || !is_let_go;
     }
 
-    /// Whether the nodes are caught in a step that begins then or before, instead of held from the
-    /// beginning.
+    /// Whether the nodes have been caught by a step that begins at that time, rather than held from
+    /// the start.
     bool
     has_caught(const double time, const double rounding) const
     {
@@ -41,7 +42,7 @@ namespace Exemplar
     }
   };
 
-  /// A subsection of Handles.
+  /// Parameters of a subsection of Handles.
   struct HandleParameters
   {
     std::string name;
@@ -59,12 +60,12 @@ namespace Exemplar
     void
     declare(KeyTable &keys);
 
-    /// Throws UserError if more than one of a motion, a pose and a cache to follow is given, or
-    /// what belongs to one that is not, and for a time to let go that is none.
+    /// Throws UserError if more than one of a motion, a pose and a cache to follow is given, for a
+    /// key that belongs to none of those given, and for an invalid From or Until.
     void
     check() const;
 
-    /// What From and Until say. check() must have passed.
+    /// The values of From and Until. check() must have passed.
     HoldingTime
     holding_time() const;
 

@@ -15,18 +15,18 @@
 
 namespace Exemplar
 {
-  /// By the names of handles.
+  /// Motions by the names of handles.
   using NamedMotions = std::map<std::string, Motion>;
 
-  /// Nodes held at places that move in time: hard constraints. Of quadratic elements also those in
-  /// the middle of edges between two held nodes of the mesh file.
+  /// Nodes with prescribed motions: hard constraints. In quadratic elements a handle also holds the
+  /// middle of an edge between two held vertices.
   class Handles
   {
   public:
-    /// The poses that handles follow are among `poses`, the files of nodes among `nodes`; those in
-    /// `motions` move as these say of nodes of the mesh file, instead of by their formulas. Throws
-    /// UserError for a selection without nodes, a formula that is not understood, a pose that is
-    /// not there, and for handles that overlap and disagree in any step.
+    /// `poses` contains the poses that handles follow, and `nodes` the files of nodes; handles in
+    /// `motions` move as these say of vertices, instead of by their formulas. Throws UserError for
+    /// a selection without nodes, an invalid formula, a missing pose, and for handles that overlap
+    /// and disagree in any step.
     Handles(const std::vector<HandleParameters> &parameters,
             const Mesh                          &mesh,
             const FESpace                       &fe_space,
@@ -35,42 +35,42 @@ namespace Exemplar
             const NamedNodes                    &nodes   = {},
             const NamedMotions                  &motions = {});
 
-    /// A further handle, of all components of some nodes of this process, ascending, that `motion`
-    /// moves; one of that name that was let go becomes this one. Throws UserError if a handle of that name
-    /// holds nodes. All processes must call this and the two functions below.
+    /// Add a handle of all components of some nodes of this process, ascending, that `motion`
+    /// moves; it replaces a released handle of that name. Throws UserError if a handle of that name
+    /// holds nodes. This and the two functions below are collective.
     void
     grab(const std::string &name, const std::vector<unsigned int> &nodes, Motion motion);
 
-    /// From now on a handle holds nothing, until hold(). Throws UserError if no handle has this name, or if
-    /// its From and Until say when it holds.
+    /// Release a handle until hold(). Throws UserError if no handle has this name, or if it has a
+    /// From or Until.
     void
     let_go(const std::string &name)
     {
       find_untimed(name).holds = false;
     }
 
-    /// From now on a handle holds its nodes again. Throws as let_go().
+    /// Let a handle hold its nodes again. Throws as let_go().
     void
     hold(const std::string &name)
     {
       find_untimed(name).holds = true;
     }
 
-    /// Whether some From or Until says when a handle holds.
+    /// Whether some handle has a From or Until.
     bool
     have_times() const;
 
-    /// Handles with a time hold as they do in a step that begins at time t [s]. Returns whether another
-    /// one than before holds.
+    /// Set which handles with a From or Until hold in a step that begins at time t [s]. Returns
+    /// whether this has changed.
     bool
     follow_time(double time);
 
-    /// A step begins from these positions at this time: handles that have caught their nodes move them on
-    /// from there.
+    /// Begin a step from these positions at this time: nodes that have been caught move on from
+    /// there.
     void
     begin_step(double time, const dealii::Vector<double> &positions);
 
-    /// What may change of a handle.
+    /// The state of a handle that may change.
     struct Holding
     {
       bool                      holds;
@@ -78,27 +78,27 @@ namespace Exemplar
       Motion                    function;
     };
 
-    /// Of each handle.
+    /// The state of each handle.
     std::vector<Holding>
     holding() const;
 
-    /// As when holding() was this: handles that came later are gone.
+    /// Restore the state from holding(); handles added later are removed.
     void
     restore(const std::vector<Holding> &holding);
 
-    /// Degrees of freedom 3 i + c that are held, ascending, each once.
+    /// Held degrees of freedom 3 i + c, ascending and unique.
     std::vector<unsigned int>
     held_dofs() const;
 
-    /// From now on `motion` moves a handle instead of its formulas. Throws UserError if no handle
-    /// has this name.
+    /// Let `motion` move a handle instead of its formulas. Throws UserError if no handle has this
+    /// name.
     void
     set_motion(const std::string &name, Motion motion);
 
-    /// Put the held degrees of freedom where they are at time t [s]. All processes that share the body
-    /// must call this and are_elsewhere(). Throws SolverFailure if a
-    /// motion is not finite and, of motions that a program has set, UserError if one gives not as
-    /// many displacements as there are points, or if handles that overlap disagree.
+    /// Set the held degrees of freedom to their positions at time t [s]. This and are_elsewhere()
+    /// are collective. Throws SolverFailure if a motion is not finite; for motions set by a
+    /// program, UserError if one does not give one displacement for each point, or if overlapping
+    /// handles disagree.
     void
     move(double time, dealii::Vector<double> &positions) const;
 
@@ -106,18 +106,18 @@ namespace Exemplar
     bool
     are_elsewhere(double time, const dealii::Vector<double> &positions) const;
 
-    /// How many handles there are.
+    /// Number of handles.
     unsigned int
     size() const
     {
       return handles.size();
     }
 
-    /// Of the whole body, each once.
+    /// Number of a handle's nodes in the whole body, each counted once.
     unsigned int
     n_nodes(unsigned int handle) const;
 
-    /// As the scene or grab() calls it.
+    /// Name of a handle in the scene or in grab().
     const std::string &
     name(const unsigned int handle) const
     {
@@ -131,7 +131,8 @@ namespace Exemplar
       return handles[handle].nodes;
     }
 
-    /// Sum over a handle's held degrees of freedom of a nodal field, by component; 0 if it is let go.
+    /// Sum of a nodal field over a handle's held degrees of freedom, by component; 0 if it is
+    /// released.
     dealii::Tensor<1, 3>
     sum_over(unsigned int handle, const dealii::Vector<double> &field) const;
 
@@ -145,26 +146,26 @@ namespace Exemplar
   private:
     using Displacements = std::vector<std::vector<dealii::Tensor<1, 3>>>;
 
-    /// Throws UserError if no handle has this name.
+    /// The handle of this name. Throws UserError if there is none.
     Handle &
     find(const std::string &name);
 
-    /// The same, and for one with a time.
+    /// The handle of this name. Throws UserError if there is none, or if it has a From or Until.
     Handle &
     find_untimed(const std::string &name);
 
-    /// Throws UserError if handles hold the same and disagree in a step of the axis, or one of them has
-    /// caught it.
+    /// Throws UserError if handles that hold the same degree of freedom disagree in a step of the
+    /// axis, or if one of them has caught it.
     void
     check_overlaps(const TimeAxis &axis);
 
-    /// Of all handles at time t [s].
+    /// Displacements of all handles at time t [s].
     Displacements
     displacements(double time) const;
 
     const Mesh              &mesh;
     const FESpace           &fe_space;
-    const double             rounding; ///< by which times of steps may be off [s]
+    const double             rounding; ///< tolerance of times of steps [s]
     std::vector<Handle>      handles;
     std::vector<std::string> warnings;
   };

@@ -14,10 +14,10 @@ namespace Exemplar
   class LawsOfCells
   {
   public:
-    /// The same law in all cells.
+    /// One law for all cells.
     LawsOfCells(const CellLaw law) : laws{ law } {}
 
-    /// One for each cell, at least one.
+    /// A law for each cell, of at least one cell.
     explicit LawsOfCells(std::vector<CellLaw> of_cells)
         : laws(of_cells), law_of_cell(std::move(of_cells))
     {
@@ -25,7 +25,7 @@ namespace Exemplar
       laws.erase(std::unique(laws.begin(), laws.end()), laws.end());
     }
 
-    /// Cells that are not here have this law, too.
+    /// Record a law of cells on other processes.
     void
     add(const CellLaw law)
     {
@@ -39,7 +39,7 @@ namespace Exemplar
       return law_of_cell.empty() ? laws.front() : law_of_cell[cell];
     }
 
-    /// Those of some cell, here or elsewhere, each once.
+    /// The laws that occur on any process, ascending and unique.
     const std::vector<CellLaw> &
     present() const
     {
@@ -48,7 +48,7 @@ namespace Exemplar
 
   private:
     std::vector<CellLaw> laws;
-    std::vector<CellLaw> law_of_cell; ///< empty: the same in all
+    std::vector<CellLaw> law_of_cell; ///< empty: one law for all
   };
 } // namespace Exemplar
 

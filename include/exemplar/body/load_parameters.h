@@ -12,7 +12,7 @@ namespace Exemplar
 {
   class KeyTable;
 
-  /// A subsection of Loads.
+  /// Parameters of a subsection of Loads.
   struct LoadParameters
   {
     std::string name;
@@ -23,7 +23,7 @@ namespace Exemplar
     declare(KeyTable &keys);
   };
 
-  /// Values of Loads/Ramp: how loads come in.
+  /// Values of Loads/Ramp: how loads are applied over time.
   enum class LoadRamp
   {
     none,

@@ -19,8 +19,8 @@ namespace Exemplar
   class Loads
   {
   public:
-    /// The files of nodes are among `nodes`. Gravity acts on the masses of `mass_matrix`. Throws
-    /// UserError for a load that selects nothing or that is not understood.
+    /// `nodes` contains the files of nodes. Gravity acts on the masses of `mass_matrix`. Throws
+    /// UserError for a load that selects nothing or has an invalid formula.
     Loads(const LoadsParameters &parameters,
           const Mesh            &mesh,
           const FESpace         &fe_space,
@@ -28,15 +28,15 @@ namespace Exemplar
           const NamedNodes      &nodes       = {},
           MassMatrix             mass_matrix = MassMatrix::consistent);
 
-    /// From now on gravity is this acceleration [m/s^2], in a body of this material. Throws UserError
-    /// for a weight that is not finite.
+    /// Set the acceleration of gravity [m/s^2], in a body of this material. Throws UserError for a
+    /// weight that is not finite.
     void
     set_gravity(const std::array<double, 3> &acceleration,
                 const FESpace               &fe_space,
                 const Material              &material);
 
-    /// From now on this force [N] acts on each node of this process, by degree of freedom, beside the
-    /// named loads; empty: none does.
+    /// Set further forces [N] at the nodes of this process, by degree of freedom, beside the named
+    /// loads; empty: none.
     void
     set_nodal_forces(dealii::Vector<double> forces)
     {
@@ -55,14 +55,14 @@ namespace Exemplar
       return gravity_force.size() > 0;
     }
 
-    /// Nodal forces are one, without a name.
+    /// Whether there are loads apart from gravity; nodal forces count as one.
     bool
     has_named_loads() const
     {
       return !loads.empty() || nodal_force.size() > 0;
     }
 
-    /// How many named ones there are.
+    /// Number of named loads.
     unsigned int
     size() const
     {
@@ -75,21 +75,21 @@ namespace Exemplar
       return loads[load].name;
     }
 
-    /// What a named one acts on, in this process.
+    /// Nodes of this process that a named load acts on.
     const std::vector<unsigned int> &
     nodes(const unsigned int load) const
     {
       return loads[load].nodes;
     }
 
-    /// What multiplies all loads at time t: with Ramp = increments t, which goes from 0 to 1, else 1.
+    /// Factor of all loads at time t: t with Ramp = increments, which goes from 0 to 1, else 1.
     double
     ramp_factor(const double time) const
     {
       return ramp == LoadRamp::increments ? time : 1.;
     }
 
-    /// Nodal forces of gravity in full [N]; empty without gravity.
+    /// Nodal forces of gravity without the ramp [N]; empty without gravity.
     const dealii::Vector<double> &
     gravity() const
     {
@@ -106,12 +106,12 @@ namespace Exemplar
     {
       std::string               name;
       std::vector<unsigned int> nodes;
-      std::vector<double>       shares; ///< of each node; they sum to one
+      std::vector<double>       shares; ///< share of each node; they sum to one
       Expression                force;
     };
 
     const LoadRamp         ramp;
-    const MassMatrix       mass_matrix; ///< on whose masses gravity acts
+    const MassMatrix       mass_matrix; ///< masses that gravity acts on
     dealii::Vector<double> gravity_force;
     dealii::Vector<double> nodal_force; ///< see set_nodal_forces(); without the ramp
     std::vector<Load>      loads;

@@ -15,7 +15,7 @@
 
 namespace Exemplar
 {
-  /// Sums over the moving body, with the nodal momenta p = M v.
+  /// Kinetic energy and momenta of the body, where p = M v are the nodal momenta.
   struct MotionSums
   {
     double               kinetic_energy = 0.; ///< 1/2 v^T M v [J]
@@ -29,27 +29,26 @@ namespace Exemplar
   public:
     Mass(const FESpace &fe_space, const Material &material, MassMatrix kind);
 
-    /// The cells have other densities.
+    /// Replace the densities.
     void
     set_material(const FESpace &fe_space, const Material &material);
 
-    /// Of the cells of this process.
+    /// The nodal matrix of this process' cells, a partial sum over processes.
     const dealii::SparseMatrix<double> &
     nodal() const
     {
       return matrix;
     }
 
-    /// M times a field, by degree of freedom. All processes that share the body must call this and
-    /// motion_sums().
+    /// M times a field, by degree of freedom. This and motion_sums() are collective.
     Vector
     times(const Vector &field) const;
 
-    /// What the cells of this process give to it.
+    /// Partial sum of times() over the cells of this process.
     OwnSums<Vector>
     own_times(const Vector &field) const;
 
-    /// The greatest sum of a row [kg].
+    /// Greatest row sum of the consistent matrix [kg].
     double
     max_nodal_mass() const
     {
@@ -59,7 +58,7 @@ namespace Exemplar
     MotionSums
     motion_sums(const State &state) const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -72,10 +71,10 @@ namespace Exemplar
     const MassMatrix             kind;
     dealii::SparsityPattern      pattern;
     dealii::SparseMatrix<double> matrix;
-    std::vector<std::size_t>     row_start; ///< a half of it once more: its entries are visited in
-    std::vector<unsigned int>    columns;   ///< every iteration, and deal.II's iterators are slow
+    std::vector<std::size_t>     row_start; ///< copy of its upper triangle, for fast products in
+    std::vector<unsigned int>    columns;   ///< every iteration: deal.II's iterators are slow
     std::vector<double>          values;
-    double                       max_row_sum = 0.; ///< of the consistent matrix [kg]
+    double                       max_row_sum = 0.; ///< row sum of the consistent matrix [kg]
   };
 } // namespace Exemplar
 

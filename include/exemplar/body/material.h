@@ -14,27 +14,28 @@
 
 namespace Exemplar
 {
-  /// Values of a constant that is painted, one a cell; empty: it is not.
+  /// Values of a painted constant, one a cell; empty: not painted.
   struct PaintedConstant
   {
     std::vector<double> values;
-    bool                is_factor = true; ///< of what the scene says, or instead of it
+    bool                is_factor = true; ///< whether values multiply those of the scene
   };
 
-  /// The constants that a scene paints on its surface; one without values is not painted.
+  /// The constants that a scene paints on its surface; those without values are not painted.
   struct PaintedMaterial
   {
     PaintedConstant youngs_modulus = {}, poissons_ratio = {}, density = {}, importance = {};
-    /// Fibre direction, in x, y and z; empty: it is not painted.
+    /// Fibre direction, components x, y and z; empty: not painted.
     std::vector<std::vector<double>> fibre_direction = {};
   };
 
-  /// All regions of a scene by their material ids. `names` is a mesh whose physical groups may give them
-  /// their names. Throws UserError for a region that is named by no name of the mesh, or twice.
+  /// Constants of all regions of a scene by material id. `names` is a mesh whose physical groups
+  /// may name regions. Throws UserError for a name that the mesh does not have, or a region that is
+  /// set twice.
   std::map<unsigned int, ElasticConstants>
   regions_by_id(const MaterialParameters &parameters, const MshFile &names);
 
-  /// New constants, one for all cells or one a cell; empty: as they are.
+  /// New constants, one for all cells or one a cell; empty: unchanged.
   struct ChangedConstants
   {
     std::vector<double> youngs_modulus; ///< [Pa]
@@ -48,13 +49,13 @@ namespace Exemplar
     CellMaterial<double>                elasticity;
     double                              density;
     double                              youngs_modulus;
-    double                              poissons_ratio;    ///< as given, where isotropic
+    double                              poissons_ratio;    ///< input value, where isotropic
     double                              importance;        ///< factor of Examples/Importance
-    std::shared_ptr<const OwnConstants> own;               ///< mostly the same in many cells
+    std::shared_ptr<const OwnConstants> own;               ///< shared by many cells
     double                              lambda_of_patches; ///< [Pa]
-    Orthotropy                          grain;             ///< all of C, in the cell's axes
-    double                              lambda_of_others;  ///< what of it patches have taken [Pa]
-    bool                                is_orthotropic;    ///< by nine constants
+    Orthotropy                          grain;             ///< the whole of C, in the cell's axes
+    double                              lambda_of_others;  ///< lambda that patches have taken [Pa]
+    bool                                is_orthotropic;    ///< given by nine constants
 
     template <typename Archive>
     void
@@ -70,8 +71,8 @@ namespace Exemplar
     }
   };
 
-  /// C and C_e of a cell of which the examples have an elasticity of their own, and the eta with which they
-  /// are summed up to C' = (1 - eta) C + eta C_e, Eq. (38).
+  /// C and C_e of a cell whose examples have an elasticity of their own, with the eta of
+  /// C' = (1 - eta) C + eta C_e, Eq. (38).
   class BlendedElasticity
   {
   public:
@@ -87,16 +88,16 @@ namespace Exemplar
       return examples;
     }
 
-    /// C'^-1:eta C_e:E, the strain to which the strain E of an example draws the cell.
+    /// The target strain D = C'^-1:eta C_e:E of an example strain E, Eq. (38).
     Matrix3<double>
     drawn_strain(const Matrix3<double> &E) const;
 
-    /// Of such a strain D, by how much the energy of the examples is greater than that of D:
-    /// (1 - eta) / eta C':C_e^-1:C:D [Pa]; 0 where eta is 0.
+    /// The stress C_y:D = (1 - eta) / eta C':C_e^-1:C:D [Pa] of a target strain D, Eq. (38), by
+    /// which the energy of the examples exceeds that of D; 0 where eta is 0.
     Matrix3<double>
     excess_stress(const Matrix3<double> &D) const;
 
-    /// What patches take of that: lambda of an isotropic material, 0 of another one [Pa].
+    /// The part of C_y that patches take: lambda of an isotropic material, 0 of another one [Pa].
     double
     excess_of_patches() const;
 
@@ -111,28 +112,28 @@ namespace Exemplar
   class Material
   {
   public:
-    /// Of no cells.
+    /// The material of no cells.
     Material() = default;
 
-    /// `names` is a mesh whose physical groups may give regions their names; `axes` are those of each cell
-    /// where a material has a grain. Throws UserError if
-    /// a region is named by a material id that no cell has, by no name of the mesh, or twice, and for
-    /// painted constants that are out of range.
+    /// `names` is a mesh whose physical groups may name regions; `axes` are those of each cell
+    /// where a material has a grain. Throws UserError for a region whose material id no cell has,
+    /// whose name the mesh does not have, or that is set twice, and for painted constants out of
+    /// range.
     Material(const MaterialParameters        &parameters,
              const std::vector<unsigned int> &material_ids,
              const MshFile                   &names   = {},
              const PaintedMaterial           &painted = {},
              std::vector<GrainAxes>           axes    = {});
 
-    /// Of a material with fibres that around them; of an orthotropic one the isotropic elasticity nearest
-    /// to it.
+    /// Lamé's constants: of a material with fibres, those of the matrix around them; of an
+    /// orthotropic one, those of the nearest isotropic elasticity.
     const CellMaterial<double> &
     elasticity(const unsigned int cell) const
     {
       return constants[constants_of_cell[cell]].elasticity;
     }
 
-    /// What patches take of its elasticity: lambda of an isotropic one [Pa].
+    /// The part of C that patches take: lambda of an isotropic material [Pa].
     double
     lambda_of_patches(const unsigned int cell) const
     {
@@ -143,44 +144,44 @@ namespace Exemplar
     double
     norm_estimate(unsigned int cell) const;
 
-    /// Number k of the Constants of a law.
+    /// Constant k of a law, in the order of its Constants.
     double
     number(CellLaw law, unsigned int cell, std::size_t k) const;
 
-    /// A constant that some law adds to those of elasticity.h, by its name.
+    /// A constant that a law has beside those of elasticity.h, by name.
     double
     own_number(const std::string &name, const unsigned int cell) const
     {
       return constants[constants_of_cell[cell]].own->at(name);
     }
 
-    /// With other constants. Throws UserError for numbers that are not one for all or one a cell, or that
-    /// are out of range.
+    /// A copy with other constants. Throws UserError for numbers that are not one for all or one a
+    /// cell, or that are out of range.
     Material
     with(const ChangedConstants &changed) const;
 
-    /// The sum (1 - eta) C + eta C_e of this body's and its examples' elasticity, where these have one
-    /// of their own, which must be; eta is `importance` times that of the cell. Another call replaces C_e and
-    /// eta. Young's moduli and densities stay those of the body.
+    /// A copy with the elasticity C' = (1 - eta) C + eta C_e of the body and its examples,
+    /// Eq. (38); eta is `importance` times that of the cell. Requires that C_e is the examples'
+    /// own. Another call replaces C_e and eta. Young's moduli and densities stay those of the body.
     Material
     with_examples(const ExampleElasticity &own, double importance) const;
 
-    /// Whether with_examples() has made it.
+    /// Whether this was made by with_examples().
     bool
     has_elasticity_of_examples() const
     {
       return of_examples.is_own();
     }
 
-    /// Only then.
+    /// C and C_e of a cell. Requires has_elasticity_of_examples().
     BlendedElasticity
     blend(unsigned int cell) const;
 
-    /// What is left of it in cells of which the volume part of the energy is that of patches.
+    /// A copy without the volume part of the energy that belongs to patches.
     Material
     without_dilatation() const;
 
-    /// That of these cells, in their order.
+    /// The material of these cells, in their order.
     Material
     part(const std::vector<unsigned int> &cells) const;
 
@@ -197,7 +198,7 @@ namespace Exemplar
       return constants[constants_of_cell[cell]].density;
     }
 
-    /// Whether cells differ in it from 1.
+    /// Whether the importance() of some cell is not 1.
     bool
     importance_varies() const;
 
@@ -214,40 +215,40 @@ namespace Exemplar
       return constants[constants_of_cell[cell]].youngs_modulus;
     }
 
-    /// What set_material() changes of the body alone, without an elasticity of its examples.
+    /// Constants of the body that set_material() changes, without the elasticity of its examples.
     struct BodyConstants
     {
       double youngs_modulus;  ///< [Pa]
       double poissons_ratio;  ///< [-]
       double fibre_stiffness; ///< [Pa]
-      bool   is_orthotropic;  ///< by nine constants, of which the others are none
+      bool   is_orthotropic;  ///< given by nine constants, which are not among these
     };
 
     BodyConstants
     of_body_alone(unsigned int cell) const;
 
-    /// C_e, where it is not the body's.
+    /// C_e; without values where it is the body's.
     const ExampleElasticity &
     elasticity_of_examples() const
     {
       return of_examples;
     }
 
-    /// All of C, in the axes of its grain.
+    /// The whole of C, in the axes of the cell.
     const Orthotropy &
     grain(const unsigned int cell) const
     {
       return constants[constants_of_cell[cell]].grain;
     }
 
-    /// Zeros where nothing asks for them.
+    /// Axes of a cell; zeros where no material needs them.
     GrainAxes
     grain_axes(const unsigned int cell) const
     {
       return axes.empty() ? GrainAxes() : axes[cell];
     }
 
-    /// Of the wish to be like the examples [Pa].
+    /// Young's modulus of C_e [Pa].
     double
     youngs_modulus_of_examples(const unsigned int cell) const
     {
@@ -255,21 +256,21 @@ namespace Exemplar
     }
 
   private:
-    /// Of the law that any C needs: its constants behind Lamé's.
+    /// Compute the constants beyond Lamé's of the law of general anisotropy, by cell.
     void
     find_stiffnesses();
 
-    /// Give each cell constants of its own, from `bases`, those of each entry of `constants`.
+    /// Give each cell its own constants, from `bases`, the constants of each entry of `constants`.
     void
     paint(const PaintedMaterial &painted, const std::vector<ElasticConstants> &bases);
 
     std::vector<CellConstants>          constants;
-    ExampleElasticity                   of_examples;           ///< where it is their own
-    double                              importance_there = 0.; ///< then
-    std::vector<CellConstants>          of_body; ///< then, without the examples; else empty
+    ExampleElasticity                   of_examples;           ///< C_e; without values: the body's
+    double                              importance_there = 0.; ///< Examples/Importance with it
+    std::vector<CellConstants>          of_body; ///< `constants` without C_e; may be empty
     std::vector<unsigned int>           constants_of_cell;
-    std::vector<GrainAxes>              axes;        ///< by cell; empty: isotropic
-    std::vector<std::array<double, 22>> stiffnesses; ///< by cell; empty: none is orthotropic
+    std::vector<GrainAxes>              axes;        ///< material axes by cell; empty: isotropic
+    std::vector<std::array<double, 22>> stiffnesses; ///< numbers of C by cell; may be empty
   };
 } // namespace Exemplar
 

@@ -15,10 +15,10 @@ namespace Exemplar
   class KeyTable;
   struct Selection;
 
-  /// Values of the constants that laws add to those of elasticity.h, by their names.
+  /// Values by name of the constants that laws have beside those of elasticity.h.
   using OwnConstants = std::map<std::string, double>;
 
-  /// What they are unless a scene says another.
+  /// Their default values.
   OwnConstants
   default_own_constants();
 
@@ -33,11 +33,11 @@ namespace Exemplar
 
     double importance = 1; ///< factor of Examples/Importance [-]
 
-    std::string fibre_direction = {}; ///< formulas of x, y, z, or from SELECTION to SELECTION
+    std::string fibre_direction = {}; ///< formulas of x, y, z, or "from SELECTION to SELECTION"
     std::string cross_direction = {}; ///< formulas; empty: any that is perpendicular
     std::string orthotropy      = {}; ///< nine numbers; empty: isotropic
 
-    /// Whether cells need axes.
+    /// Whether cells need material axes.
     bool
     has_grain() const;
   };
@@ -54,11 +54,11 @@ namespace Exemplar
   {
     ElasticConstants                         everywhere;
     MassMatrix                               mass_matrix = MassMatrix::consistent;
-    std::map<unsigned int, ElasticConstants> regions;       ///< by material id
-    std::map<std::string, ElasticConstants>  named_regions; ///< by name, as the scene has it
-    /// Painted maps, each with how it is used; empty: there is none.
+    std::map<unsigned int, ElasticConstants> regions;       ///< regions by material id
+    std::map<std::string, ElasticConstants>  named_regions; ///< regions by name, as in the scene
+    /// Painted maps, each with its mode of use; empty: none.
     std::string              youngs_modulus_map, poissons_ratio_map, density_map, importance_map;
-    std::vector<std::string> fibre_direction_maps; ///< of x, y and z; empty: none
+    std::vector<std::string> fibre_direction_maps; ///< maps of x, y and z; empty: none
 
     bool
     is_painted() const
@@ -67,15 +67,15 @@ namespace Exemplar
              || !fibre_direction_maps.empty() || !importance_map.empty();
     }
 
-    /// Whether cells differ in how important examples are to them.
+    /// Whether the importance factor differs between cells.
     bool
     importance_varies() const;
 
-    /// The law of corotational cells that the constants need; none: they are isotropic.
+    /// The law of corotational cells for these constants; none: isotropic.
     std::optional<CellLaw>
     law_of_grain() const;
 
-    /// What fibre directions go from and to, anywhere, with the key.
+    /// All selections that fibre directions go from or to, each with its key.
     std::vector<std::pair<Selection, std::string>>
     selections() const;
 
@@ -95,7 +95,7 @@ namespace Exemplar
     bool
     has(const std::string &constant) const;
 
-    /// Whether some have a constant by which ModelTraits::chosen_by may choose their law.
+    /// Whether some cells have a constant that may choose their law, ModelTraits::chosen_by.
     bool
     chooses_laws() const;
 

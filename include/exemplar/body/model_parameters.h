@@ -8,32 +8,33 @@ namespace Exemplar
 {
   class KeyTable;
 
-  /// Whether forces follow the rotations, Eq. (17), or hold them fixed, Eq. (6).
+  /// Whether forces include the derivatives of the rotations, Eq. (17), or hold the rotations
+  /// fixed, Eq. (6).
   enum class GradientKind
   {
     consistent,
     frozen
   };
 
-  /// Of what the volume part of the energy knows the dilatation.
+  /// Where the dilatation in the volume part of the energy is evaluated.
   enum class DilatationKind
   {
     automatic, ///< patches for the strains that have them, cells for others and in interpolations
     cells,
-    patches ///< its mean, Eqs. (25) and (37)
+    patches ///< mean over a patch, Eqs. (25) and (37)
   };
 
-  /// What energy the body has of its own, beside its examples.
+  /// The energy of the body without examples.
   enum class Background
   {
-    corotational, ///< that of the strain
+    corotational, ///< the energy of the strain
     neo_hookean   ///< Eq. (34)
   };
 
   /// Subsection Model.
   struct ModelParameters
   {
-    CellLaw        strain     = CellLaw::corotational; ///< the law of that strain
+    CellLaw        strain     = CellLaw::corotational; ///< the law, by its strain
     GradientKind   gradient   = GradientKind::consistent;
     DilatationKind dilatation = DilatationKind::automatic;
     Element        element    = Element::P1;
@@ -42,23 +43,23 @@ namespace Exemplar
     void
     declare(KeyTable &keys);
 
-    /// Choose the dilatation that `automatic` stands for. To do so twice changes nothing.
+    /// Replace `automatic` by the dilatation that it stands for. Idempotent.
     void
     complete();
 
-    /// To be called after complete(), as check().
+    /// Whether there are patches. This and check() require complete().
     bool
     has_patches() const
     {
       return dilatation == DilatationKind::patches;
     }
 
-    /// Throws UserError for a strain without what the scene asks of it.
+    /// Throws UserError for a strain that does not support the rest of the scene.
     void
     check() const;
 
-    /// The law of the cells. Only the corotational strain has rotations that a force may hold fixed,
-    /// and only with consistent forces another background.
+    /// The law of the cells. Only the corotational strain has rotations that may be held fixed or,
+    /// with consistent forces, another background.
     CellLaw
     law() const
     {

@@ -14,17 +14,17 @@
 
 namespace Exemplar
 {
-  /// Throws UserError, calling the places `key`, unless those behind the nodes' are in the middles of
-  /// the edges, to 1e-9 of `size`.
+  /// Throws UserError, calling the places `key`, unless the places behind those of the vertices are
+  /// the middles of the edges, to 1e-9 of `size`.
   void
   check_straight(const std::vector<dealii::Point<3>>            &places,
                  const std::vector<std::array<unsigned int, 2>> &edges,
                  double                                          size,
                  const std::string                              &key);
 
-  /// The nodes of an element on a mesh: the vertices, which are the nodes of the mesh file, and then,
-  /// of quadratic elements, one in the middle of each edge, in ascending order of its ends, the lesser
-  /// one first.
+  /// The nodes of a finite element on a mesh: the vertices, which are the nodes of the mesh file,
+  /// followed by one in the middle of each edge for quadratic elements, in ascending order of the
+  /// edges' ends, the lesser one first.
   class NodeNumbering
   {
   public:
@@ -44,19 +44,19 @@ namespace Exemplar
       return mesh.n_nodes();
     }
 
-    /// Of a cell: its vertices and then the middles of its edges 01, 12, 20, 03, 13, 23, which is
-    /// the order of deal.II and of VTK.
+    /// Nodes of a cell: its vertices and then the middles of its edges 01, 12, 20, 03, 13, 23,
+    /// which is the order of deal.II and of VTK.
     dealii::ArrayView<const unsigned int>
     of_cell(const unsigned int cell) const
     {
       return { nodes_of_cells + n_per_cell * cell, n_per_cell };
     }
 
-    /// Of a face: its vertices and then the middles of its edges 01, 12, 20.
+    /// Nodes of a face: its vertices and then the middles of its edges 01, 12, 20.
     std::vector<unsigned int>
     of_face(const BoundaryFace &face) const;
 
-    /// The vertices at the ends of the edge of which a node is the middle.
+    /// The ends of the edge whose middle is `node`.
     const std::array<unsigned int, 2> &
     ends(const unsigned int node) const
     {
@@ -67,13 +67,13 @@ namespace Exemplar
     std::vector<unsigned int>
     with_middles(std::vector<unsigned int> vertices) const;
 
-    /// The places of all nodes, from those of the vertices, with the others in the middle of their
-    /// edges, or from those of both. Throws UserError, calling the places `key`, for curved edges,
-    /// which linear elements have not.
+    /// The places of all nodes, from those of the vertices alone, with the middles of the edges, or
+    /// from those of all nodes. Throws UserError, calling the places `key`, for curved edges, which
+    /// linear elements have not.
     std::vector<dealii::Point<3>>
     complete(std::vector<dealii::Point<3>> places, const std::string &key) const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -83,9 +83,9 @@ namespace Exemplar
 
     const Mesh                              &mesh;
     const std::size_t                        n_per_cell;
-    std::vector<std::array<unsigned int, 2>> edges;          ///< with nodes; empty: linear
+    std::vector<std::array<unsigned int, 2>> edges;          ///< edges with a node; empty: linear
     std::vector<unsigned int>                with_edges;     ///< nodes of each cell; empty: linear
-    const unsigned int                      *nodes_of_cells; ///< those, or the mesh's vertices
+    const unsigned int                      *nodes_of_cells; ///< data of with_edges, or of the mesh
   };
 } // namespace Exemplar
 

@@ -9,8 +9,8 @@
 
 namespace Exemplar
 {
-  /// Directions of a cell at rest, orthonormal: along the fibres, and the second axis of orthotropy. Zeros
-  /// where nothing asks for them.
+  /// Orthonormal material axes of a cell at rest: along the fibres, and the second axis of
+  /// orthotropy. Zeros where no material needs them.
   struct GrainAxes
   {
     std::array<double, 3> along  = { { 0., 0., 0. } };
@@ -24,7 +24,7 @@ namespace Exemplar
     }
   };
 
-  /// C in axes of its own: orthotropy, of which an isotropic material with fibres is one.
+  /// An orthotropic elasticity tensor C in its own axes; isotropy with fibres is a special case.
   class Orthotropy
   {
   public:
@@ -34,9 +34,9 @@ namespace Exemplar
     /// Isotropic, with fibres of this stiffness [Pa] along the first axis.
     Orthotropy(const CellMaterial<double> &material, double fibre_stiffness);
 
-    /// E_1, E_2, E_3, nu_23, nu_13, nu_12, G_23, G_13, G_12, where nu_ab is minus the strain along b over
-    /// that along a of a tension along a. Throws UserError, calling the numbers `key`, if C would not be
-    /// positive definite.
+    /// E_1, E_2, E_3, nu_23, nu_13, nu_12, G_23, G_13, G_12, where nu_ab is minus the strain along
+    /// b over that along a of a tension along a. Throws UserError, calling the numbers `key`, if C
+    /// would not be positive definite.
     Orthotropy(const std::array<double, 9> &constants,
                double                       fibre_stiffness,
                const std::string           &key);
@@ -49,20 +49,20 @@ namespace Exemplar
     double
     least() const;
 
-    /// What patches take of C, lambda_m = 1/(I:C^-1:I) - 2/3 mu_min: C - lambda_m I (x) I is positive
-    /// definite [Pa].
+    /// The part of C that patches take, lambda_m = 1/(I:C^-1:I) - 2/3 mu_min: C - lambda_m I (x) I
+    /// is positive definite [Pa].
     double
     lambda_of_patches() const;
 
-    /// How much of the norm of C is not isotropic, about [Pa]; exactly 0 if nothing is.
+    /// About the norm of the anisotropic part of C [Pa]; exactly 0 if isotropic.
     double
     norm_of_grain() const;
 
-    /// The strain of a pressure, without shear, of trace 1.
+    /// The normal strains of a pressure, scaled to trace 1.
     std::array<double, 3>
     strain_of_pressure() const;
 
-    /// The strain of a tension along the first axis, without shear, 1 along it.
+    /// The normal strains of a tension along the first axis, scaled to 1 along it.
     std::array<double, 3>
     strain_of_tension() const;
 
@@ -70,15 +70,15 @@ namespace Exemplar
     Orthotropy
     without(double lambda) const;
 
-    /// a times this and b times another one, of the same axes.
+    /// a times this plus b times another one in the same axes.
     Orthotropy
     sum(double a, double b, const Orthotropy &other) const;
 
-    /// C:E, of a strain in the axes of the rest pose [Pa].
+    /// The stress C:E of a strain E; both in the axes of the rest pose [Pa].
     Matrix3<double>
     stress(const GrainAxes &axes, const Matrix3<double> &E) const;
 
-    /// Its inverse: the strain C^-1:T of a stress [Pa].
+    /// The strain C^-1:T of a stress T [Pa]; both in the axes of the rest pose.
     Matrix3<double>
     strain(const GrainAxes &axes, const Matrix3<double> &T) const;
 
@@ -101,7 +101,7 @@ namespace Exemplar
     std::array<double, 3> shear;  ///< C_2323, C_1313, C_1212
   };
 
-  /// Nine numbers out of a text. Throws UserError, calling it `key`, for anything else.
+  /// Parse nine numbers. Throws UserError, calling the text `key`, for anything else.
   std::array<double, 9>
   parse_orthotropy(const std::string &text, const std::string &key);
 } // namespace Exemplar

@@ -10,39 +10,38 @@
 
 namespace Exemplar
 {
-  /// Disjoint patches that hold all quadrature points. In a patch the volume part of the energy
-  /// knows one mean dilatation, Eq. (25), and not that of each point, which tetrahedra cannot keep
-  /// small one by one. Of quadratic elements the points of a cell are a patch, of linear ones the
-  /// cells of a star are.
+  /// A partition of all quadrature points into patches. The volume part of the energy takes one
+  /// mean dilatation a patch, Eq. (25), instead of that of each point, which locks in tetrahedra.
+  /// In quadratic elements the points of a cell are a patch, in linear ones the cells of a star.
   class Patches
   {
   public:
-    /// The patch of each cell of a whole body, numbered from 0 on. Quadratic elements have one for each
-    /// cell, linear ones stars of nodes: the node with the most cells that have no patch yet takes these,
-    /// first as long as they are 18 or more, then 9. In between and at the end cells that are left join a
-    /// patch with which they share a face, first if all their nodes are nodes of the patch. Nodes
-    /// with equally many cells are taken in the order of their numbers. A patch lies in one region,
-    /// and its Lamé constants lambda, where they are painted, within a factor of two.
+    /// Choose the patch of each cell of a whole body, numbered from 0 on. Quadratic elements have
+    /// one for each cell, linear ones stars of nodes: repeatedly the node with the most cells
+    /// without a patch takes these, first as long as they are 18 or more, then 9. In between and at
+    /// the end the remaining cells join a patch with which they share a face, first if all their
+    /// nodes are nodes of the patch. Ties are resolved by the numbers of the nodes. A patch lies in
+    /// one region, and its Lamé constants lambda, where they are painted, within a factor of two.
     static std::vector<unsigned int>
     choose(const Mesh &mesh, const Material &material, Element element);
 
-    /// None: cells know their own dilatation.
+    /// No patches: cells have their own dilatation.
     Patches() = default;
 
-    /// Those that choose() has found: the one of each cell of this process, numbered from 0 on without
-    /// gaps; none if there are no numbers.
+    /// The patches of choose(): that of each cell of this process, numbered from 0 on without gaps;
+    /// empty: none.
     Patches(const std::vector<unsigned int> &of_cells,
             const FESpace                   &fe_space,
             const Material                  &material);
 
-    /// What of a material is the cells' own, beside the dilatation of patches.
+    /// The material of the cells' own energy, without the part of the patches.
     Material
     rest_of(const Material &material) const
     {
       return size() > 0 ? material.without_dilatation() : material;
     }
 
-    /// The cells have other constants. Which cells make a patch stays.
+    /// Replace the constants; the partition stays.
     void
     set_material(const FESpace &fe_space, const Material &material);
 
@@ -58,14 +57,14 @@ namespace Exemplar
       return patch_of_point[point];
     }
 
-    /// Its quadrature points, in ascending order.
+    /// Quadrature points of a patch, ascending.
     const std::vector<unsigned int> &
     points(const unsigned int patch) const
     {
       return points_of_patch[patch];
     }
 
-    /// At rest [m^3].
+    /// Volume of a patch at rest [m^3].
     double
     volume(const unsigned int patch) const
     {
@@ -79,14 +78,14 @@ namespace Exemplar
       return lambda(patch) * volume(patch);
     }
 
-    /// The mean over its volume [Pa].
+    /// Mean of lambda over the volume of a patch [Pa].
     double
     lambda(const unsigned int patch) const
     {
       return lambdas[patch];
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 

@@ -10,19 +10,19 @@
 
 namespace Exemplar
 {
-  /// What looks wrong in a pose, by its size and its cells' volumes: collapsed, of other units, flat, mirrored, with
-  /// inverted cells, or, unless it `may_be_rest`, the rest pose moved rigidly. `positions` are by degree of freedom
-  /// [m]. A clause that follows the pose's name in a warning; empty if nothing looks wrong. All processes must call
-  /// this.
+  /// Checks a pose by its size and its cells' volumes: collapsed, in other units, flat, mirrored,
+  /// with inverted cells, or, unless it `may_be_rest`, the rest pose moved rigidly. `positions` [m]
+  /// are by degree of freedom. Returns a clause that follows the pose's name in a warning; empty if
+  /// nothing looks wrong. Collective.
   std::string
   describe_pose(const Mesh                   &mesh,
                 const FESpace                &fe_space,
                 const dealii::Vector<double> &positions,
                 bool                          may_be_rest = false);
 
-  /// What to say of a pose function that makes the body flat and looks like displacements: at least two
-  /// of its formulas lack their own coordinate. A clause that follows its key; empty for others. All
-  /// processes must call this.
+  /// Checks whether a pose function that makes the body flat may be meant as displacements: at
+  /// least two of its formulas lack their own coordinate. Returns a clause that follows its key;
+  /// empty otherwise. Collective.
   std::string
   describe_displacements(const std::string            &functions,
                          const Mesh                   &mesh,

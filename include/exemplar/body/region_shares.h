@@ -10,26 +10,26 @@
 
 namespace Exemplar
 {
-  /// How much of each region's example weights acts in each cell: shares in [0, 1] that sum to one,
-  /// the same at all quadrature points of a cell. Regions are the cells of one material id, or what
-  /// is painted; or there is one, which is the whole body and has no list of shares.
+  /// The shares of regions in each cell, by which their example weights act: in [0, 1], with sum
+  /// one, the same at all quadrature points of a cell. Regions are the cells of one material id, or
+  /// are painted; or the whole body is the only one, without a list of shares.
   class RegionShares
   {
   public:
-    /// The whole body.
+    /// One region, the whole body.
     RegionShares() = default;
 
-    /// Without a blend length [m] a cell belongs to its own region alone. With one, the
-    /// shares change smoothly over about this distance, measured inside the body: they
-    /// solve s - l^2 Laplace s = indicator of the region, with natural boundary and
-    /// l = blend_length / (2 sqrt 3), the filter of Lazarov and Sigmund 2011, on linear elements; this
-    /// one process must do. Regions are those of the whole mesh.
+    /// Regions by material id of the whole mesh. Without a blend length [m] a cell belongs to its
+    /// own region alone. With one, shares change smoothly over about this distance, measured inside
+    /// the body: they solve s - l^2 Laplace s = indicator of the region, with natural boundary
+    /// conditions and l = blend_length / (2 sqrt 3), the filter of Lazarov and Sigmund 2011, on
+    /// linear elements; only for a single process.
     RegionShares(const Mesh &mesh, double blend_length, unsigned int points_per_cell = 1);
 
-    /// Regions that are painted: for each of them, from number 1 on, its map's value in every
-    /// cell. Where values sum to more than one they are divided by their sum; where they sum to
-    /// less, the rest is of a region 0, which is not there if nothing is left anywhere. Throws
-    /// UserError for a map that is zero everywhere. All processes must call this.
+    /// Painted regions: for each of them, from number 1 on, its map's value in every cell. Where
+    /// values sum to more than one they are divided by their sum; where they sum to less, the rest
+    /// belongs to region 0, which exists only if there is a rest anywhere. Throws UserError for a
+    /// map that is zero everywhere. Collective.
     explicit RegionShares(const std::vector<std::vector<double>> &painted,
                           unsigned int                            points_per_cell = 1,
                           const Exchange                         &exchange = Exchange::serial());
@@ -40,7 +40,7 @@ namespace Exemplar
       return ids.empty() ? 1 : ids.size();
     }
 
-    /// Or the number of a painted region; none of the whole body.
+    /// Material id or number of a painted region; none for the whole body.
     std::optional<unsigned int>
     material_id(const unsigned int region) const
     {
@@ -59,7 +59,7 @@ namespace Exemplar
           function(shares[s].region, shares[s].value);
     }
 
-    /// Of a region at a point, from 0 to 1.
+    /// Share of a region at a point, in [0, 1].
     double
     share(const unsigned int point, const unsigned int region) const
     {
@@ -76,7 +76,7 @@ namespace Exemplar
       return shares.empty() ? nullptr : shares.data();
     }
 
-    /// Where each point's shares begin in list(), and its end; null: the whole body.
+    /// Begin of each point's shares in list(), and the end; null: the whole body.
     const std::size_t *
     starts() const
     {

@@ -11,9 +11,9 @@ namespace Exemplar
 {
   class Mesh;
 
-  /// What a step starts from and ends in. Each field is named once more in serialize(), and once in
-  /// nodal_fields() if it belongs to the nodes: whatever copies, sends, saves or compares states knows
-  /// it by these.
+  /// The state before and after a step. Each field is also named in serialize(), and in
+  /// nodal_fields() if it belongs to the nodes: all code that copies, sends, saves or compares
+  /// states uses these.
   struct State
   {
     unsigned int        step = 0;
@@ -23,11 +23,11 @@ namespace Exemplar
     Vector              previous_positions;  ///< before the last step; empty unless
     Vector              previous_velocities; ///< the time scheme has two steps
     double              previous_step = 0.;  ///< size of the last step [s]; 0: none
-    std::vector<double> weights;             ///< of the examples; empty without examples
-    std::vector<double> previous_weights;    ///< as previous_positions
-    std::vector<double> multipliers;         ///< of each region's sum of weights to find [J]
-    std::vector<double> history; ///< what laws remember, equally many numbers a cell; may be empty
-    double              dissipated = 0.; ///< by what remembers, since the first step [J]
+    std::vector<double> weights;             ///< weights of the examples; empty without
+    std::vector<double> previous_weights;    ///< before the last step, as previous_positions
+    std::vector<double> multipliers;         ///< multipliers of regions' sums of weights [J]
+    std::vector<double> history;         ///< history variables, equally many a cell; may be empty
+    double              dissipated = 0.; ///< energy dissipated since the first step [J]
 
     std::array<Vector *, 4>
     nodal_fields()
@@ -35,7 +35,7 @@ namespace Exemplar
       return { { &positions, &velocities, &previous_positions, &previous_velocities } };
     }
 
-    /// For boost's archives.
+    /// Serialise all fields by boost's archives.
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int /*version*/)
@@ -48,11 +48,11 @@ namespace Exemplar
   bool
   operator==(const State &a, const State &b);
 
-  /// The state of the whole body, at the root of those who share it; all of them must call this.
+  /// The state of the whole body, at the root. Collective.
   State
   whole(const Mesh &mesh, State state);
 
-  /// What a process has of a whole state; talks to nobody.
+  /// The part of a whole state at a process' nodes and cells; no communication.
   State
   part(const Mesh &mesh, State state);
 } // namespace Exemplar

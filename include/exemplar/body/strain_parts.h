@@ -4,16 +4,17 @@
 
 #include <exemplar/body/material.h>
 
-// Parts of a strain, which examples may act on alone.
+// Parts of a strain, to which examples may be restricted.
 
 namespace Exemplar
 {
-  /// The part of a strain that a pressure makes; the rest changes no volume, and the two add up in
-  /// energy.
+  /// The part of a strain that a pressure causes; the rest is isochoric, and the two are orthogonal
+  /// in energy.
   Matrix3<double>
   part_of_pressure(const Material &material, unsigned int cell, const Matrix3<double> &strain);
 
-  /// The part that a tension along the fibres makes; the rest has no stretch along them. 0 without fibres.
+  /// The part of a strain that a tension along the fibres causes; the rest has no stretch along
+  /// them. 0 without fibres.
   Matrix3<double>
   part_of_tension(const Material &material, unsigned int cell, const Matrix3<double> &strain);
 } // namespace Exemplar

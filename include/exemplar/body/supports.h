@@ -11,10 +11,10 @@
 
 namespace Exemplar
 {
-  // All processes that share a body must call functions that take a mesh or an exchange.
+  // Functions that take a mesh or an exchange are collective.
 
-  /// Number of the six rigid motions that the held degrees of freedom (3 i + c)
-  /// leave free, of nodes that are at `rest_positions` at rest.
+  /// Number of the six rigid motions of the body that the held degrees of freedom (3 i + c) leave
+  /// free; nodes are at `rest_positions` at rest.
   unsigned int
   n_free_rigid_motions(const Mesh                      &mesh,
                        const dealii::Vector<double>    &rest_positions,
@@ -25,9 +25,9 @@ namespace Exemplar
   /// the whole body.
   struct StaticallyDeterminateSupport
   {
-    std::array<unsigned int, 4>     corners;   ///< of the cell
-    std::array<dealii::Point<3>, 4> rest;      ///< where these are at rest [m]
-    std::array<unsigned int, 3>     nodes;     ///< with held degrees of freedom
+    std::array<unsigned int, 4>     corners;   ///< nodes of the cell
+    std::array<dealii::Point<3>, 4> rest;      ///< their positions at rest [m]
+    std::array<unsigned int, 3>     nodes;     ///< the nodes with held degrees of freedom
     std::vector<unsigned int>       held_dofs; ///< ascending
 
     template <typename Archive>
@@ -43,31 +43,31 @@ namespace Exemplar
   support_near_centroid(const std::vector<dealii::Point<3>>            &nodes,
                         const std::vector<std::array<unsigned int, 4>> &cells);
 
-  /// Turn `positions` so that the supported cell stands as it does at rest, unless it
-  /// deviates from that by less than `angle` [rad]. The support was chosen for that
-  /// orientation and is a poor one in others. Returns whether they were turned.
+  /// Rotate `positions` so that the supported cell has its orientation at rest, unless it deviates
+  /// from that by less than `angle` [rad]. The support was chosen for that orientation and is a
+  /// poor one in others. Returns whether they were rotated.
   bool
   turn_to_support(const StaticallyDeterminateSupport &support,
                   double                              angle,
                   dealii::Vector<double>             &positions,
                   const Exchange                     &exchange);
 
-  /// Take the best-fitting infinitesimal rigid motion (translation and rotation, least
-  /// squares over the nodes) out of a displacement [m] of `positions`.
+  /// Subtract the best-fitting infinitesimal rigid motion (translation and rotation, least squares
+  /// over the nodes) from a displacement [m] of `positions`.
   void
   remove_rigid_motion(const dealii::Vector<double> &positions,
                       dealii::Vector<double>       &displacement,
                       const Exchange               &exchange);
 
-  /// Move `positions` rigidly so that it comes nearest to `reference` in the
-  /// least-squares sense over the nodes (Kabsch 1976), Eq. (15).
+  /// Move `positions` rigidly so that they come nearest to `reference` in the least-squares sense
+  /// over the nodes (Kabsch 1976), Eq. (15).
   void
   align(const dealii::Vector<double> &reference,
         dealii::Vector<double>       &positions,
         const Exchange               &exchange);
 
-  /// The same by the nodes alone of which all three of these degrees of freedom of this process are there,
-  /// unless they are on a line.
+  /// align() by those nodes alone that have all three components among `dofs` on some process, or
+  /// by all nodes if these are collinear or fewer than three.
   void
   align_at(const std::vector<unsigned int> &dofs,
            const dealii::Vector<double>    &reference,

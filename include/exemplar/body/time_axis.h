@@ -6,10 +6,9 @@
 
 namespace Exemplar
 {
-  /// The times at which a scene is solved: 0, h, 2 h, ... End in dynamics, the last
-  /// step shorter if End is no whole number of steps; n increments of [0,1] otherwise.
-  /// Times are computed from the number of the step, never accumulated, so that a
-  /// resumed run sees the same ones.
+  /// The times at which a scene is solved: 0, h, 2 h, ... End in dynamics, with a shorter last step
+  /// if End is no whole number of steps; n increments of [0,1] otherwise. Times are computed from
+  /// the number of the step, never accumulated, so that a resumed run sees the same ones.
   class TimeAxis
   {
   public:
@@ -40,7 +39,7 @@ namespace Exemplar
     }
 
   private:
-    /// Steps of length / divisor: a tenth is 1/10, not ten times 0.1.
+    /// Steps of size length / divisor: a tenth is 1/10, not ten times 0.1.
     TimeAxis(unsigned int steps, double length, double divisor, double end);
 
     unsigned int steps;

@@ -11,21 +11,21 @@
 
 namespace Exemplar
 {
-  /// Positions of earlier steps and their weights in a formula of the time scheme.
+  /// Positions of an earlier step and their coefficient in a formula of the time scheme.
   struct WeightedPositions
   {
     double        weight;
-    const Vector *positions; ///< by degree of freedom [m]
+    const Vector *positions; ///< positions by degree of freedom [m]
   };
 
-  /// The time scheme and the damping of dynamic scenes, Eqs. (12), (21) and (22). Rates at the end
-  /// of a step are v = gamma (x - x_star), with x_star from earlier positions.
+  /// The time scheme and the damping of dynamic scenes, Eqs. (12), (21) and (22). Velocities at the
+  /// end of a step are v = gamma (x - x_star), with x_star from earlier positions.
   class TimeIntegrator
   {
   public:
     explicit TimeIntegrator(const TimeParameters &parameters);
 
-    /// From the next step on mass damping a [1/s] and stiffness damping b [s].
+    /// Set the mass damping a [1/s] and the stiffness damping b [s], between steps.
     void
     set_damping(const double a, const double b)
     {
@@ -37,18 +37,19 @@ namespace Exemplar
     void
     begin_step(const State &state, double step_size);
 
-    /// Velocities, and what the next step needs of the one from `old` to `state`.
+    /// Set the velocities of `state`, and the fields that the step after that from `old` to `state`
+    /// needs.
     void
     end_step(const State &old, State &state) const;
 
-    /// x_hat of the step, where the body would be without forces.
+    /// x_hat of the step: the positions without forces.
     const Vector &
     predicted_positions() const
     {
       return predicted;
     }
 
-    /// gamma (gamma + a_M) with the mass damping a_M: what multiplies the mass matrix [1/s^2].
+    /// Factor gamma (gamma + a_M) of the mass matrix [1/s^2], where a_M is the mass damping.
     double
     mass_factor() const
     {
@@ -62,18 +63,18 @@ namespace Exemplar
       return gamma;
     }
 
-    /// Stiffness damping over the time that gamma stands for [-].
+    /// Stiffness damping b times gamma [-].
     double
     stiffness_damping_factor() const
     {
       return stiffness_damping * gamma;
     }
 
-    /// The positions that make x_star in the step from `state`.
+    /// The terms of x_star in the step from `state`.
     std::vector<WeightedPositions>
     history(const State &state) const;
 
-    /// What makes rates of weights in the step from `state`, as of positions.
+    /// Coefficients of the weights' rates in the step from `state`, by the scheme of positions.
     WeightStep
     weight_step(const State &state) const;
 
@@ -85,7 +86,7 @@ namespace Exemplar
       return scheme == TimeScheme::implicit_euler && mass_damping == 0. && stiffness_damping == 0.;
     }
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const
     {

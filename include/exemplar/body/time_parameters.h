@@ -21,7 +21,7 @@ namespace Exemplar
     double       end               = 1.;   ///< [s]
     double       mass_damping      = 0.;   ///< [1/s]
     double       stiffness_damping = 0.;   ///< [s]
-    unsigned int increments        = 10;   ///< of statics and interpolation
+    unsigned int increments        = 10;   ///< number of increments of statics and interpolation
 
     void
     declare(KeyTable &keys);

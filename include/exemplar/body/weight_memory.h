@@ -9,17 +9,18 @@
 
 namespace Exemplar
 {
-  /// What weights are compared with in a step: those at its start, and the rate gamma (w - w*) of the
-  /// time scheme. Outside of dynamics, and of steps, weights have no rate: gamma is 0.
+  /// Data of a step for the weights' memory: the weights at its start, and their rate gamma
+  /// (w - w*) in the time scheme. Outside of dynamics, and of steps, weights have no rate: gamma is
+  /// 0.
   struct WeightStep
   {
     std::vector<double> last;
     std::vector<double> base;       ///< w*
     double              gamma = 0.; ///< [1/s]
-    double              size  = 0.; ///< of the step [s]
+    double              size  = 0.; ///< step size [s]
   };
 
-  /// Energy [J] that a step has turned into heat, by what has done it.
+  /// Energy [J] that a step has dissipated, by mechanism.
   struct Dissipation
   {
     double yield_of_weights = 0.;
@@ -32,13 +33,13 @@ namespace Exemplar
     }
   };
 
-  /// Weights that remember, Eq. (27): a step adds sum Y_i |w_i - last_i| + gamma/2 sum c_i (w_i -
-  /// w*_i)^2 to what it minimises. The first sum has kinks, which are left to the quadratic program of
-  /// the weights: forces here are those of the second.
+  /// Yield and creep of the weights, Eq. (27): a step adds sum Y_i |w_i - last_i| + gamma/2 sum c_i
+  /// (w_i - w*_i)^2 to its objective. The first sum has kinks, which are left to the quadratic
+  /// program of the weights; "forces" here are derivatives of the second.
   class WeightMemory
   {
   public:
-    /// Nothing is remembered.
+    /// No yield and no creep.
     WeightMemory() = default;
 
     /// Y_i [J] and c_i [J s] of each weight; empty where there are none.
@@ -62,41 +63,42 @@ namespace Exemplar
       return !viscosity.empty();
     }
 
-    /// What follows is of this step.
+    /// Set the data of the current step.
     void
     set_step(WeightStep new_step)
     {
       step = std::move(new_step);
     }
 
-    /// Add kinks to limits on weights less these; on the weights themselves if it is empty.
+    /// Add the kinks to limits on the weights, or on their differences to `origin` if it is given.
     void
     add_to(WeightLimits &limits, const std::vector<double> &origin = {}) const;
 
-    /// Take weights that are off their kinks by rounding alone back to them.
+    /// Round weights that differ from their kinks by rounding errors to these.
     void
     snap(std::vector<double> &weights) const;
 
-    /// What a step minimises beside the energy of the body [J].
+    /// The two sums of Eq. (27) that a step adds to the energy of the body [J].
     double
     energy(const std::vector<double> &weights) const;
 
-    /// Derivative of the creep's part by a weight [J].
+    /// Derivative of the creep term by a weight [J].
     double
     force(unsigned int i, double weight) const;
 
-    /// Second derivative of the same [J].
+    /// Second derivative of the creep term by a weight [J].
     double
     stiffness(const unsigned int i) const
     {
       return creeps() ? step.gamma * viscosity[i] : 0.;
     }
 
-    /// Add what makes H w - c of the energy's own c with stiffness() in H.
+    /// Add the creep's linear term to c, so that H w - c is the gradient, with stiffness() in H.
     void
     add_linear_term(std::vector<double> &c) const;
 
-    /// Of the energy by a weight with such a derivative of all but the kinks: to the right and to the left.
+    /// One-sided derivatives of the energy by a weight, to the right and to the left; `derivative`
+    /// is that of all but the kinks [J].
     struct Slopes
     {
       double up, down;
@@ -105,11 +107,11 @@ namespace Exemplar
     Slopes
     slopes(unsigned int i, double weight, double derivative) const;
 
-    /// Magnitude of the forces on a weight [J].
+    /// Scale of the forces of yield and creep on a weight [J].
     double
     force_scale(unsigned int i, double weight) const;
 
-    /// Of a step that ends with these weights.
+    /// Energy dissipated by a step that ends with these weights.
     Dissipation
     dissipation(const std::vector<double> &weights) const;
 

@@ -28,7 +28,8 @@ namespace Exemplar::Loops
              add_patch_tangent<Laws, Number, n_nodes>,     coupling<Laws, Number, n_nodes> };
   }
 
-  /// All loops: with those of other groups of laws, which files of their own have.
+  /// The kernels of an instruction set: loops compiled here, and those of other groups of laws from
+  /// their own files.
   template <typename Set, typename Number, Element element>
   CellKernels
   make_kernels(const ElementConstant<element> of, const char *name)

@@ -15,14 +15,14 @@
 #include <tuple>
 #include <vector>
 
-// The laws of a cell: what its energy, forces and tangents are as functions of F, R and its constants.
-// All have the members of CorotationalCell, so that a further law is a header like corotational_cell.h
-// and its entries here, with what it remembers and the constants that it adds to the keys of Material.
-// No deal.II header here: see matrix3.h.
+// The constitutive laws of a cell: energy, forces and tangents as functions of F, R and constants.
+// All have the members of CorotationalCell, so that a further law is a header like
+// corotational_cell.h and its entries here, with its history variables and the constants that it
+// adds to the keys of Material. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// In the order of CellLaws.
+  /// The constitutive laws, in the order of CellLaws.
   enum class CellLaw
   {
     corotational,
@@ -49,7 +49,7 @@ namespace Exemplar
                               ViscoelasticCell<Number>,
                               FibrousPlasticCell<Number>>;
 
-  /// Stands for a law in calls of templates; without data.
+  /// Type tag of a law; without data.
   template <typename Cell>
   struct CellModel
   {
@@ -64,7 +64,7 @@ namespace Exemplar
 
   using AllLaws = LawRange<0, std::tuple_size_v<CellLaws<double>>>;
 
-  // Each group has loops of its own, see cell_kernels_loops.h.
+  // Each group of laws has loops of its own, see cell_kernels_loops.h.
 
   inline constexpr CellLaw first_rare_law = CellLaw::fibrous, first_sum = CellLaw::fibrous_plastic;
 
@@ -74,7 +74,7 @@ namespace Exemplar
   using SumsOfLaws
       = LawRange<static_cast<std::size_t>(first_sum), std::tuple_size_v<CellLaws<double>>>;
 
-  /// Call `function` with the CellModel of a law, which is one of these.
+  /// Call `function` with the CellModel of a law, which must be in the range.
   template <typename Number, std::size_t i, std::size_t end, typename Function>
   auto
   with_cell_model(const LawRange<i, end> /*laws*/, const CellLaw law, const Function &function)
@@ -85,7 +85,7 @@ namespace Exemplar
     return function(CellModel<std::tuple_element_t<i, CellLaws<Number>>>());
   }
 
-  /// The same of all laws.
+  /// Call `function` with the CellModel of any law.
   template <typename Number, typename Function>
   auto
   with_cell_model(const CellLaw law, const Function &function)
@@ -109,7 +109,7 @@ namespace Exemplar
     return laws;
   }
 
-  /// The rotation of a cell that a model sees: I where it has none.
+  /// The rotation R in a law: the closest to F, or I for a law without rotations.
   inline Matrix3<double>
   model_rotation(const CellLaw law, const Matrix3<double> &deformation_gradient)
   {
@@ -117,7 +117,7 @@ namespace Exemplar
                                         : identity_matrix<double>();
   }
 
-  /// The strain of a cell, Eq. (2) or its counterpart.
+  /// The strain e of a cell, Eq. (2) or its counterpart.
   inline Matrix3<double>
   model_strain(const CellLaw          law,
                const Matrix3<double> &rotation,
@@ -128,7 +128,7 @@ namespace Exemplar
         { return decltype(model)::type::strain_of(rotation, deformation_gradient); });
   }
 
-  /// Its change with the deformation gradient.
+  /// The change of the strain by a change dF of the deformation gradient.
   inline Matrix3<double>
   model_strain_change(const CellLaw          law,
                       const Matrix3<double> &rotation,
@@ -140,7 +140,7 @@ namespace Exemplar
         { return decltype(model)::type::strain_change(rotation, deformation_gradient, dF); });
   }
 
-  /// C:E [Pa] by the constants of a law, of which number(k) is one.
+  /// The stress C:E [Pa] by the constants of a law, where number(k) returns constant k.
   template <typename Load>
   Matrix3<double>
   model_stress(const CellLaw law, const Load &number, const Matrix3<double> &E)
@@ -150,7 +150,7 @@ namespace Exemplar
         { return stress(decltype(model)::type::Constants::from_numbers(number), E); });
   }
 
-  /// Of its Constants.
+  /// Number of a law's Constants at a point.
   inline std::size_t
   n_constants(const CellLaw law)
   {
@@ -170,7 +170,7 @@ namespace Exemplar
                                    });
   }
 
-  /// The constants that a law adds to those of elasticity.h, in their order.
+  /// The constants of a law beside those of elasticity.h, in their order.
   inline std::vector<LawConstant>
   own_constants(const CellLaw law)
   {

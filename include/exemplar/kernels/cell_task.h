@@ -8,16 +8,16 @@
 #include <cstddef>
 #include <limits>
 
-// What the loops over the cells are given and what they sum. What the loops call a cell is a quadrature
-// point of a cell: of linear elements there is one, of quadratic ones there are four, one after the
-// other, which share their nodes. Everything is stored by batches of `batch_size` cells: entry e of
-// cell c of a quantity with n entries is at (c/8 n + e) 8 + c%8.
+// Input and sums of the loops over the cells. A "cell" of the loops is a quadrature point of a
+// cell: linear elements have one, quadratic ones four, one after the other, which share their
+// nodes. Everything is stored by batches of `batch_size` cells: entry e of cell c of a quantity
+// with n entries is at (c/8 n + e) 8 + c%8.
 
 namespace Exemplar
 {
-  /// What the loops know of the cells. The last batch is filled with copies of the last
-  /// cell that have no volume. In a body of several laws loops go over the cells once for each law,
-  /// and cells of another law have no volume then.
+  /// The arrays of the cells; comments give the numbers a cell. The last batch is filled with
+  /// copies of the last cell that have no volume. In a body of several laws the cells are looped
+  /// over once for each law, with cells of other laws having no volume.
   struct CellArrays
   {
     std::size_t      n_cells;
@@ -26,11 +26,11 @@ namespace Exemplar
     const double    *volumes;   ///< 1 [m^3]
     double          *rotations; ///< 9: R by rows
     CellLaw          law;
-    const double    *constants; ///< those of the law's Constants
-    double          *history;   ///< what the law remembers
+    const double    *constants; ///< numbers of the law's Constants
+    double          *history;   ///< history variables of the law
     ExampleConstants examples;
-    double           step_size;              ///< [s]: of the step that this is in; 0: of none
-    bool             has_other_laws = false; ///< some cells are of another law
+    double           step_size;              ///< current step size [s]; 0: outside of steps
+    bool             has_other_laws = false; ///< whether some cells have another law
 
     std::size_t
     n_batches() const
@@ -39,114 +39,113 @@ namespace Exemplar
     }
   };
 
-  /// How much of a region's weights acts in a cell.
+  /// Share of a region in a cell, by which its weights act.
   struct RegionShare
   {
-    unsigned int region; ///< its number, in ascending order of material ids
+    unsigned int region; ///< index, in ascending order of material ids
     double       value;
   };
 
   /// The examples other than the rest pose, whose strain is zero.
   struct ExampleArrays
   {
-    unsigned int       n           = 0; ///< of them
-    unsigned int       first       = 0; ///< number of the first among all examples
-    unsigned int       n_all       = 0; ///< of all
+    unsigned int       n           = 0; ///< number of these examples
+    unsigned int       first       = 0; ///< index of the first among all examples
+    unsigned int       n_all       = 0; ///< number of all examples
     unsigned int       n_weights   = 0;
     const double      *strains     = nullptr; ///< 6 n: xx, yy, zz, yz, xz, xy of each eta E_i
-    const std::size_t *share_start = nullptr; ///< of a cell's shares; null: weights are global
+    const std::size_t *share_start = nullptr; ///< begin of a cell's shares; null: global weights
     const RegionShare *shares      = nullptr;
     const float       *in_single
         = nullptr; ///< the strains once more, if single precision has them exactly
   };
 
-  /// Stiffness damping: s(e - e*) is added to the strain's stress.
+  /// Stiffness damping, which adds s C:(e - e*) to the stress.
   struct DampingArrays
   {
     const double *factors = nullptr; ///< 1: s [-]; null: no damping
     const double *strains = nullptr; ///< 6: e*
   };
 
-  /// What strongly stretched patches do to their cells, Eq. (26), see StretchedPatch.
+  /// Terms of strongly stretched patches in their cells, Eq. (26), see StretchedPatch.
   struct StretchArrays
   {
     const double *transitions = nullptr; ///< 1: beta; null: 0 everywhere
     const double *by_F        = nullptr; ///< 1 [Pa]
     const double *stiffnesses = nullptr; ///< 1 [Pa]
     const double *elasticity  = nullptr; ///< 2: Lamé's constants of the guard [Pa]
-    double       *energies    = nullptr; ///< 1: Gamma, where beta > 0, written [Pa]
+    double       *energies    = nullptr; ///< 1: output, Gamma where beta > 0 [Pa]
   };
 
-  /// What of a batch patches ask for beside the numbers of its cells: hardly any cell is such.
+  /// Rare properties of the cells of a batch that patches need.
   enum CellFlags : unsigned char
   {
-    thin_cells = 1, ///< a trace was continued, see ThinTrace
-    long_cells = 2  ///< |F|^2 is beyond min_stretched_square
+    thin_cells = 1, ///< some trace is extended, see ThinTrace
+    long_cells = 2  ///< some |F|^2 is beyond min_stretched_square
   };
 
-  /// Mean of J by patches, Eq. (37): what cells tell and are told.
+  /// Mean of J by patches, Eq. (37): output and input of the cells.
   struct VolumeArrays
   {
-    double       *changes   = nullptr; ///< 1: J - 1; null: nobody asks
-    double       *cofactors = nullptr; ///< 9: cof F by rows
+    double       *changes   = nullptr; ///< 1: output J - 1; null: not needed
+    double       *cofactors = nullptr; ///< 9: output cof F by rows
     const double *pressures = nullptr; ///< 1: of the cell's patch, along cof F [Pa]
   };
 
-  /// Mean dilatation by patches, Eq. (25): what the cells tell of their volume and what they are
-  /// told.
+  /// Mean dilatation by patches, Eq. (25): output and input of the cells.
   struct DilatationArrays
   {
-    double        *traces    = nullptr; ///< 1: tr(e), continued in thin cells; null: nobody asks
-    double        *squares   = nullptr; ///< 1: |F|^2
-    unsigned char *flags     = nullptr; ///< CellFlags of each batch, set by the same loops
+    double        *traces    = nullptr; ///< 1: output tr(e), see ThinTrace; null: not needed
+    double        *squares   = nullptr; ///< 1: output |F|^2
+    unsigned char *flags     = nullptr; ///< output CellFlags of each batch
     const double  *pressures = nullptr; ///< 1: of the cell's patch [Pa]
     const double  *scales    = nullptr; ///< 1: |C:e| + eta |C:E(w)| of the volume part alone [Pa]
     StretchArrays  stretch;
     VolumeArrays   volume;
   };
 
-  /// Where the derivatives b = dtheta_p/dx of the mean dilatations of patches, Eq. (25), are: patch by
-  /// patch four numbers for each of its nodes, the fourth 0.
+  /// The derivatives b = dtheta_p/dx of the mean dilatations of patches, Eq. (25), and their
+  /// layout: patch by patch four numbers for each of its nodes, the fourth 0.
   struct PatchArrays
   {
-    const std::size_t  *node_starts;  ///< of a patch's nodes among all
-    const std::size_t  *point_starts; ///< of its points
+    const std::size_t  *node_starts;  ///< begin of a patch's nodes
+    const std::size_t  *point_starts; ///< begin of a patch's points
     const unsigned int *points;
-    const double       *fractions; ///< of each of these in the volume of its patch
+    const double       *fractions; ///< volume of each point over that of its patch
     const int
-           *places; ///< of its cell's nodes, in the order of the loops, among those of all patches
+           *places; ///< indices in the list of nodes of all patches: of each node of a point's cell
     double *gradients; ///< b
   };
 
-  /// A patch at a node: the product of its numbers at the node with those at all nodes from there on goes
-  /// to the columns of the node.
+  /// A patch at a node: products of its numbers at the node with those at this and its following
+  /// nodes are added to the node's matrix columns.
   struct PatchAtNode
   {
     unsigned int patch;
-    unsigned int place;   ///< of the node among those of all patches
-    std::size_t  offsets; ///< of the first of these products
+    unsigned int place;   ///< index of the node in the list of nodes of all patches
+    std::size_t  offsets; ///< begin of its products in PatchColumns::offsets
   };
 
-  /// Where the products of the patches go in the matrix: column by column, so that each value is summed
-  /// by one thread, patch by patch.
+  /// Layout of the patches' outer products in the matrix: column by column, so that each value is
+  /// summed by one thread, patch by patch.
   struct PatchColumns
   {
-    const std::size_t *node_starts; ///< as PatchArrays
-    const std::size_t *starts;      ///< of a node's patches
+    const std::size_t *node_starts; ///< PatchArrays::node_starts
+    const std::size_t *starts;      ///< begin of a node's patches
     const PatchAtNode *patches;
-    const int         *columns; ///< 3 a node: where its columns begin in the values; -1 for none
-    const int         *offsets; ///< of rows in the first of them, a node; -1: held
-    const double      *factors; ///< of b b^T, a patch [J]
-    const double *vectors; ///< b, at nodes of which some components are held the free ones first
-    const double *squares     = nullptr; ///< dm_p/dx alike; null: no patch is stretched
-    const double *sums        = nullptr; ///< the derivative of Xi [N]
-    const double *of_squares  = nullptr; ///< factors of the square of the one, a patch [J]
-    const double *of_products = nullptr; ///< and of both products of one with the other
+    const int         *columns; ///< 3 a node: where its matrix columns begin; -1: none
+    const int         *offsets; ///< place of a node's rows in the first column; -1: held
+    const double      *factors; ///< factors of b b^T, one a patch [J]
+    const double *vectors; ///< b, with the free components first at nodes that are only partly held
+    const double *squares     = nullptr; ///< dm_p/dx alike; null: no stretched patch
+    const double *sums        = nullptr; ///< dXi/dx alike [N]
+    const double *of_squares  = nullptr; ///< factors of dm_p/dx dm_p/dx^T, one a patch [J]
+    const double *of_products = nullptr; ///< factors of dm_p/dx dXi/dx^T and its transpose
   };
 
-  /// What a loop over the cells does with their rotations: it takes those that are stored, or it
-  /// finds those of the positions and stores them, or it finds them for itself alone, because
-  /// storing them takes as much memory traffic as all the rest.
+  /// How a loop over the cells obtains their rotations: it uses the stored ones, or computes those
+  /// of the positions and stores them, or computes them without storing, because storing takes as
+  /// much memory traffic as all the rest.
   enum class RotationUse
   {
     keep,
@@ -154,7 +153,7 @@ namespace Exemplar
     find_and_forget
   };
 
-  /// A loop's input.
+  /// Input of a loop.
   struct CellTask
   {
     CellArrays       cells;
@@ -162,19 +161,19 @@ namespace Exemplar
     DampingArrays    damping;
     DilatationArrays dilatation;
     const double    *positions = nullptr; ///< four numbers a node, the fourth unused [m]
-    const int       *places = nullptr; ///< of a cell's nodes in the nodal sums; null: their numbers
+    const int       *places = nullptr; ///< index of each node in the nodal sums; null: node numbers
     const double    *weights          = nullptr;
     RotationUse      rotation_use     = RotationUse::keep;
-    bool             with_weight_sums = false; ///< for the derivatives by weights
+    bool             with_weight_sums = false; ///< whether to compute derivatives by weights
   };
 
-  /// What a loop sums over its cells.
+  /// Sums of a loop over its cells.
   struct CellSums
   {
     double       energy           = 0.; ///< without the penalty [J]
     double       energy_elastic   = 0.; ///< sum V/2 e:C:e [J]
     double       energy_damping   = 0.; ///< [J]
-    double       energy_inelastic = 0.; ///< that laws have beside it and the examples [J]
+    double       energy_inelastic = 0.; ///< hardening and flow [J]
     double       stress_square    = 0.; ///< sum V (|C:e| + eta |C:E(w)|)^2
     double       min_det_F        = std::numeric_limits<double>::max();
     unsigned int inverted_cells   = 0;
@@ -195,19 +194,19 @@ namespace Exemplar
     }
   };
 
-  /// Columns of the blocks (a,b), b <= a, of a cell's matrix: three each.
+  /// Number of columns of all blocks (a,b), b <= a, of a cell's matrix: three each.
   constexpr std::size_t
   n_block_columns(const std::size_t n_nodes)
   {
     return 3 * n_nodes * (n_nodes + 1) / 2;
   }
 
-  /// Where the cells' matrices go. Column j of block (a,b) is added to three consecutive values,
-  /// rows 0 to 2. Entries above the diagonal of the matrix count as zero, and a zero may be added
-  /// to the value behind the three, because four numbers are written at once.
+  /// Layout of the cells' matrices in the global one. Column j of block (a,b) is added to three
+  /// consecutive values, rows 0 to 2. Entries above the diagonal of the matrix count as zero, and a
+  /// zero may be added to the value behind the three, because four numbers are written at once.
   struct TangentTask
   {
-    bool       convex    = false; ///< make_convex() the models whose convex tangent is not R K R^T
+    bool       convex    = false;   ///< whether to make_convex() cells, unless R K R^T is convex
     const int *positions = nullptr; ///< n_block_columns() a cell (all its points) from the first
                                     ///< batch on; -1: left out
     double *values = nullptr;

@@ -11,13 +11,13 @@
 //
 //   psi = 1/2 (e - D) : C : (e - D) + (1 - phi) S : dev(C:D),        Eq. (16)
 //
-// where the guard phi is 1 but in badly inverted cells; elasticity.h has dev(C:D), in an isotropic
-// material 2 mu dev D. Of other materials phi holds all that is not isotropic, see grain_cell.h. No
-// deal.II header here: see matrix3.h.
+// where the guard phi is 1 except in badly inverted cells; dev(C:D), see elasticity.h, is 2 mu dev
+// D in isotropic materials. In other materials phi also multiplies the anisotropic part, see
+// grain_cell.h. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// A deformed cell. The energy of QuadraticCell is joined by the guard of Eq. (16).
+  /// A deformed cell: QuadraticCell with the guard of Eq. (16).
   template <typename Number, typename OfLaw = CellMaterial<Number>>
   class CorotationalCell : public QuadraticCell<Number, OfLaw>
   {
@@ -55,15 +55,15 @@ namespace Exemplar
     {
     }
 
-    /// The guard of the stretch is that of this elasticity and not of the cell's own.
+    /// Let the guard of the stretch use this elasticity instead of the cell's own.
     void
     set_guard_elasticity(const CellMaterial<Number> &C)
     {
       elasticity = C;
     }
 
-    /// A pressure p I [Pa] of the cell's patch, Eq. (25), joins the stress, once the target is set.
-    /// W does not change: I commutes with S.
+    /// Add a pressure p I [Pa] of the cell's patch, Eq. (25), to the stress, after set_target(). W
+    /// does not change: I commutes with S.
     void
     add_pressure(const Number &p)
     {
@@ -71,21 +71,21 @@ namespace Exemplar
         T[i][i] += p;
     }
 
-    /// Whether the guard acts, for each lane.
+    /// Whether the guard of Eq. (16) acts, for each lane.
     auto
     is_guarded() const
     {
       return phi < Number(1.);
     }
 
-    /// |R^T P| is at most this times |T|.
+    /// Upper bound of |R^T P| / |T|.
     Number
     force_factor() const
     {
       return Number(1.);
     }
 
-    /// Of the elasticity alone [Pa].
+    /// Energy density of the elasticity, without target [Pa].
     Number
     elastic_density() const
     {
@@ -106,37 +106,38 @@ namespace Exemplar
       return psi + guard_energy(material, Number(1.) - phi, S, D);
     }
 
-    /// 1/2 (e - e*) : C : (e - e*), of which stiffness damping has s times.
+    /// Energy density 1/2 (e - e*) : C : (e - e*) of stiffness damping, without its factor s.
     Number
     damping_density(const Matrix3<Number> &past) const
     {
       return energy(past);
     }
 
-    /// Whether the guard of the stretch may act in some lane, told by the energy density of the
-    /// elasticity [Pa] alone.
+    /// Necessary condition for the guard of the stretch to act in some lane, by the energy density
+    /// of the elasticity [Pa].
     bool
     may_be_stretched(const Number &elastic_density) const
     {
       return any(elastic_density > min_density_at_kink(elasticity));
     }
 
-    /// Whether it acts in some lane.
+    /// Whether the guard of the stretch acts in some lane.
     bool
     is_stretched() const
     {
       return StretchGuard<Number>::may_act(S, product) && stretch().acts();
     }
 
-    /// The guard of the stretch, Eq. (24). Its energy and force are not part of energy() and
-    /// force(). It is made when it is asked for, as hardly any cell needs it.
+    /// The guard of the stretch, Eq. (24), whose energy and force are not part of energy() and
+    /// force(). Computed on demand, as hardly any cell needs it.
     StretchGuard<Number>
     stretch() const
     {
       return StretchGuard<Number>(elasticity, S, product);
     }
 
-    /// -d psi / dD. The derivative of psi by a weight w_i is -eta times this, contracted with E_i.
+    /// The stress -d psi / dD. The derivative of psi by a weight w_i is -eta times its contraction
+    /// with E_i.
     Matrix3<Number>
     weight_stress(const Matrix3<Number> &D) const
     {
@@ -170,7 +171,7 @@ namespace Exemplar
       guard_force = -guard_energy(material, phi_derivative, S, D);
     }
 
-    /// R^T P = T + W + the guard of Eq. (16), Eq. (17), with P the derivative of psi by F.
+    /// R^T P = T + W + the guard of Eq. (16), Eq. (17), where P is the derivative of psi by F.
     Matrix3<Number>
     force() const
     {
@@ -230,8 +231,8 @@ namespace Exemplar
                      combine(Number(1.), Omega * guard.force(), Number(1.), guard.response(dS)));
     }
 
-    /// R^T dP of a change of the target by -E. A column of the coupling, Eq. (40), is eta times
-    /// this, with E = E_i.
+    /// R^T dP for a change of the target by -E. A column of the coupling, Eq. (40), is eta times
+    /// this for E = E_i.
     Matrix3<Number>
     example_response(const Matrix3<Number> &E) const
     {
@@ -256,14 +257,15 @@ namespace Exemplar
       elasticity = C.isotropic_part();
     }
 
-    /// Of phi, with S.
+    /// Change of phi by a change dS of S.
     Number
     change_of_guard(const Matrix3<Number> &dS) const
     {
       return phi_derivative * contract(p_derivative(S), dS);
     }
 
-    /// What the change of phi adds to response(). It is kept out of that, because hardly any cell needs it.
+    /// Add the terms of phi's change to response(); a separate function, because hardly any cell
+    /// needs it.
     [[gnu::noinline, gnu::cold]] void
     add_response_of_guard(const Matrix3<Number> &dS,
                           const Matrix3<Number> &Omega,
@@ -305,8 +307,9 @@ namespace Exemplar
       return S;
     }
 
-    /// B^-1; where the guard acts, with the eigenvalues s_i + s_j of B held above a tiny number. In W the
-    /// guard lets the numerator vanish faster than they do, in responses they are what turns the cell.
+    /// Compute B^-1; where the guard acts, with the eigenvalues s_i + s_j of B bounded below by a
+    /// tiny number. In W the guard makes the numerator vanish faster than they do, in responses
+    /// they determine the rotation of the cell.
     void
     invert_B()
     {
@@ -319,17 +322,17 @@ namespace Exemplar
         B_inverse = select_matrix(is_guarded(), bounded_inverse(B, Number(1e-8)), B_inverse);
     }
 
-    CellMaterial<Number> elasticity; ///< of the guard of the stretch
+    CellMaterial<Number> elasticity; ///< elasticity of the guard of the stretch
     Matrix3<Number>      S;
     Matrix3<Number>      B; ///< tr(S) I - S
     Number               phi            = Number(1.);
     Number               phi_derivative = Number(0.);
     Number               phi_second     = Number(0.);
-    Matrix3<Number>      target; ///< where the guard acts
+    Matrix3<Number>      target; ///< D, set where the guard acts
     Matrix3<Number>      W;
     Matrix3<Number>      B_inverse;
     Number               guard_force;
-    Number               product = Number(8.); ///< of the sums of two eigenvalues of S
+    Number               product = Number(8.); ///< (s_1+s_2)(s_2+s_3)(s_3+s_1)
   };
 } // namespace Exemplar
 

@@ -7,8 +7,8 @@
 
 #include <array>
 
-// The elastic constants that every cell has, under the name CellMaterial. A law that has more of them
-// has Constants of its own with the members of Isotropic. No deal.II header here: see matrix3.h.
+// Lamé's constants, which every law has, under the name CellMaterial. A law with further ones has
+// its own Constants with the members of Isotropic. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
@@ -16,11 +16,11 @@ namespace Exemplar
   template <typename Number>
   struct Isotropic
   {
-    /// Whether C:E has the principal axes of E: then W of Eq. (17) is 0 without a target, and C is
-    /// turned by turning the gradients of a cell.
+    /// Whether C:E has the principal axes of E: then W of Eq. (17) is 0 without a target, and
+    /// rotating C is the same as rotating the shape gradients of a cell.
     static constexpr bool is_isotropic = true;
 
-    /// That are stored for each point: its two, then what `own_constants` names.
+    /// Number of constants stored for each point: these two, then those of `own_constants`.
     static constexpr std::size_t n_numbers = 2;
 
     static constexpr std::array<LawConstant, 0> own_constants{};
@@ -28,7 +28,7 @@ namespace Exemplar
     Number lambda;
     Number mu;
 
-    /// From what load(k) finds for number k.
+    /// Make it from load(k), which returns number k.
     template <typename Load>
     static Isotropic
     from_numbers(const Load &load)
@@ -42,35 +42,35 @@ namespace Exemplar
       return k == 0 ? lambda : mu;
     }
 
-    /// The material of which C is `factor` times this one's.
+    /// The material whose C is `factor` times this one's.
     Isotropic
     scaled(const Number &factor) const
     {
       return { factor * lambda, factor * mu };
     }
 
-    /// What is left of it in a cell whose volume part is its patch's, Eq. (25).
+    /// The material without the volume part, which is a patch's, Eq. (25).
     Isotropic
     without_dilatation() const
     {
       return { Number(0.), mu };
     }
 
-    /// What the guards know of it, which are those of isotropic elasticity.
+    /// The isotropic part of C, which the guards use.
     const Isotropic &
     isotropic_part() const
     {
       return *this;
     }
 
-    /// With `factor` times all that is not isotropic.
+    /// The material with `factor` times its anisotropic part.
     const Isotropic &
     softened(const Number & /*factor*/) const
     {
       return *this;
     }
 
-    /// An estimate of the norm of C [Pa]: how much the rounding of a strain can grow in its stress.
+    /// An estimate of the norm of C [Pa], the amplification of a strain's rounding in its stress.
     Number
     norm_estimate() const
     {
@@ -94,9 +94,9 @@ namespace Exemplar
     return T;
   }
 
-  /// The target strain of a cell with stiffness damping. The energies of elasticity and of
-  /// damping are 1/2 (e-D):C:(e-D) and s/2 (e-e*):C:(e-e*). Up to a constant their sum is
-  /// (1+s)/2 (e-D'):C:(e-D') with D' = (D + s e*) / (1+s).
+  /// The target strain D' of a cell with stiffness damping. The energies of elasticity and of
+  /// damping are 1/2 (e-D):C:(e-D) and s/2 (e-e*):C:(e-e*). Up to a constant their sum is (1+s)/2
+  /// (e-D'):C:(e-D') with D' = (D + s e*) / (1+s).
   template <typename Number>
   Matrix3<Number>
   damped_target(const Matrix3<Number> &target, const Number &s, const Matrix3<Number> &past)
@@ -105,10 +105,10 @@ namespace Exemplar
     return combine(factor, target, factor * s, past);
   }
 
-  // The guard of Eq. (16) takes from the energy what would jump where the rotation is ambiguous:
-  // with a factor 1 - phi it adds S : dev(C:D), for the stretch S and the target strain D. The
-  // three functions below are this and its derivatives; here dev(C:D) = 2 mu dev D. Materials that
-  // are not isotropic have more in them.
+  // The guard of Eq. (16) removes the part of the energy that would jump where the rotation is
+  // ambiguous: with a factor 1 - phi it adds S : dev(C:D), for the stretch S and the target strain
+  // D. The three functions below are this term and its derivatives; here dev(C:D) = 2 mu dev D. For
+  // anisotropic materials see grain_cell.h.
 
   /// factor S : dev(C:D) [Pa].
   template <typename Number>
@@ -121,7 +121,8 @@ namespace Exemplar
     return Number(2.) * material.mu * factor * contract(S, deviator(D));
   }
 
-  /// T + factor dev(C:D), the derivative of the guard's energy by S added to a stress T [Pa]; e = S - I.
+  /// T + factor dev(C:D), the derivative of the guard's energy by S added to a stress T [Pa];
+  /// e = S - I.
   template <typename Number>
   Matrix3<Number>
   add_guard_of_target(const Matrix3<Number>   &T,
@@ -144,16 +145,17 @@ namespace Exemplar
     return combine(Number(1.), T, Number(2.) * material.mu * factor, deviator(S));
   }
 
-  /// What the guard of stretch_guard.h knows of a material.
+  /// Slope of the energy across the kink of stretch_guard.h, in a material.
   template <typename Number>
   struct KinkSlope
   {
-    Number slope;   ///< c(|F|), above the slope of the energy across the kink [Pa]
+    Number slope;   ///< c(|F|), an upper bound of the slope across the kink [Pa]
     Number by_norm; ///< its derivative by |F| [Pa]
-    Number margin;  ///< the guard begins where the slope is minus this [Pa]
+    Number margin;  ///< the guard begins where `slope` is minus this [Pa]
   };
 
-  /// tr S = s_1 <= |F| at the kink; with this margin the guard begins at |F| = 1 + 0.8/nu.
+  /// The slope at the kink, where tr S = s_1 <= |F|; with this margin the guard begins at
+  /// |F| = 1 + 0.8/nu.
   template <typename Number>
   KinkSlope<Number>
   kink_slope(const Isotropic<Number> &material, const Number &norm)
@@ -162,8 +164,8 @@ namespace Exemplar
              Number(0.4) * (material.lambda + material.mu) };
   }
 
-  /// An energy density of the elasticity [Pa] below which the guard does not act: from
-  /// |F| > 1 + 0.8/nu > 2.6 follows |S - I|^2 > (2.6 - sqrt(3))^2 > 0.75. For nu <= 0, where the
+  /// An energy density of the elasticity [Pa] below which the guard of the stretch does not act:
+  /// |F| > 1 + 0.8/nu > 2.6 implies |S - I|^2 > (2.6 - sqrt(3))^2 > 0.75. For nu <= 0, where the
   /// energy may be less than mu |S - I|^2, the guard never acts.
   template <typename Number>
   Number

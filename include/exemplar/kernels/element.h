@@ -6,22 +6,22 @@
 #include <iterator>
 #include <type_traits>
 
-// What the elements are: the one place where they differ. No deal.II header here: see matrix3.h.
+// The finite elements: the one place where they differ. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// Of tetrahedra, in the order of element_traits.
+  /// Elements on tetrahedra, in the order of element_traits.
   enum class Element
   {
     P1, ///< linear: 4 nodes, one quadrature point
     P2  ///< quadratic: 10 nodes, four quadrature points
   };
 
-  /// What of an amount in a cell, or on a face, belongs to a vertex and to the middle of an edge.
+  /// Fractions of an amount in a cell, or on a face, at a vertex and at the middle of an edge.
   struct NodeShares
   {
-    double vertex, edge; ///< parts
-    double all;          ///< parts of all nodes
+    double vertex, edge; ///< relative shares
+    double all;          ///< sum of the shares of all nodes
 
     double
     of_vertex(const double amount) const
@@ -36,15 +36,15 @@ namespace Exemplar
     }
   };
 
-  /// Whether shares are the integrals of shape functions (of quadratic ones less than 0 at the
-  /// vertices of a cell), or of their squares, divided by the sum of these.
+  /// Whether an amount is distributed by integrals of shape functions (for quadratic ones negative
+  /// at the vertices of a cell), or by those of their squares, divided by the sum of these.
   enum class ShareRule
   {
     consistent,
     lumped
   };
 
-  /// By each of the rules.
+  /// Shares by each ShareRule.
   struct SharesByRule
   {
     NodeShares consistent, lumped;
@@ -56,23 +56,23 @@ namespace Exemplar
     }
   };
 
-  /// What distinguishes the elements, beside the quadratures of FESpace.
+  /// Properties of an element, beside the quadratures of FESpace.
   struct ElementTraits
   {
-    const char  *name;   ///< what scenes call it, as the value of Model/Element
-    const char  *cells;  ///< what messages call its cells
-    int          degree; ///< of the shape functions
+    const char  *name;   ///< value of Model/Element in scenes
+    const char  *cells;  ///< its cells in messages
+    int          degree; ///< degree of the shape functions
     int          nodes_per_cell;
     int          points_per_cell; ///< quadrature points
     SharesByRule in_cell, on_face;
 
-    /// Near Poisson's ratio 1/2 its cells by themselves are far too stiff, so patches are stars of
-    /// them. Of other elements each cell is a patch.
+    /// Whether cells lock near Poisson's ratio 1/2, so that patches are stars of them. In other
+    /// elements each cell is a patch.
     bool locks;
 
     unsigned char vtk_type; ///< VTK_TETRA or VTK_QUADRATIC_TETRA
 
-    /// In the middles of the edges, behind the vertices.
+    /// Whether there are nodes in the middles of the edges, behind the vertices.
     constexpr bool
     has_edge_nodes() const
     {
@@ -124,14 +124,14 @@ namespace Exemplar
     return static_cast<std::size_t>(element) + 1 < std::size(element_traits);
   }
 
-  /// The element of the next degree, which must be there.
+  /// The element of the next degree. Requires has_richer().
   constexpr Element
   richer(const Element element)
   {
     return static_cast<Element>(static_cast<std::size_t>(element) + 1);
   }
 
-  /// An element as a type.
+  /// An element as a type, for overloads of templates.
   template <Element element>
   using ElementConstant = std::integral_constant<Element, element>;
 

@@ -5,17 +5,18 @@
 #include <exemplar/kernels/grain_cell.h>
 #include <exemplar/kernels/plastic_cell.h>
 
-// Cells that yield between fibres that do not. Radial return needs isotropy, so fibres see the whole strain e
-// and not what of it is elastic:
+// Plastic cells with elastic fibres. Radial return requires isotropy, so the fibres see the whole
+// strain e instead of its elastic part:
 //
-//   psi = psi of PlasticCell + 1/2 (e - D) : C_a : (e - D) + its guard, C_a = alpha a a a a, D = eta E(w),
+//   psi = psi of PlasticCell + 1/2 (e - D) : C_a : (e - D) + its guard,
+//   C_a = alpha a a a a,   D = eta E(w),
 //
-// see grain_cell.h. Both parts are functions of the same S, and all that a cell is asked for is linear in its
-// energy, so it is a sum. No deal.II header here: see matrix3.h.
+// see grain_cell.h. Both parts are functions of the same S, and all members are linear in the
+// energy, so the cell is a sum of two. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// Those of PlasticConstants, and of Fibrous what an isotropic material lacks.
+  /// PlasticConstants, joined by the stiffness and direction of Fibrous.
   template <typename Number>
   struct FibrousPlasticConstants : PlasticConstants<Number>
   {
@@ -43,7 +44,7 @@ namespace Exemplar
                { { load(n + 1), load(n + 2), load(n + 3) } } };
     }
 
-    /// With `factor` times all of C; it yields as before.
+    /// The material with `factor` times C; the yield stress stays.
     FibrousPlasticConstants
     scaled(const Number &factor) const
     {
@@ -54,7 +55,7 @@ namespace Exemplar
       return C;
     }
 
-    /// The fibres without what is around them.
+    /// The fibres without the matrix around them.
     Fibres
     fibres() const
     {
@@ -91,7 +92,7 @@ namespace Exemplar
         : Plastic(constants, rotation, deformation_gradient, examples),
           fibres(constants.fibres(), rotation, deformation_gradient, examples)
     {
-      // the guard of the stretch is that of the other part: without a lambda there is none
+      // the plastic part has the guard of the stretch: without lambda the fibres have none
       fibres.set_guard_elasticity({ Number(0.), constants.mu });
     }
 
@@ -191,7 +192,7 @@ namespace Exemplar
       return combine(Number(1.), A, Number(1.), B);
     }
 
-    /// Of the fibres, with damping, while the rotation stays.
+    /// Response of the fibres with a fixed rotation, with damping.
     Matrix3<Number>
     fixed_response(const Matrix3<Number> &E) const
     {

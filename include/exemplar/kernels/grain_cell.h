@@ -5,18 +5,19 @@
 #include <exemplar/kernels/corotational_cell.h>
 #include <exemplar/kernels/symmetric.h>
 
-// Corotational cells of materials with a grain, C = C_iso + C_a: fibres, and any symmetric C. Directions
-// are those of the rest pose, so that C stands in the frame of the cell's rotation. Where the rotation is
-// ambiguous S itself jumps, so the guard phi holds all of C_a that sees S, with e = S - I:
+// Corotational cells of anisotropic materials, C = C_iso + C_a: fibres, or any symmetric C.
+// Material axes are those of the rest pose, so that C is in the frame of the cell's rotation. Where
+// the rotation is ambiguous S itself jumps, so the guard phi multiplies all terms of C_a with S,
+// where e = S - I:
 //
-//   psi = 1/2 (e - D) : C : (e - D) + (1 - phi) (2 mu S : dev D - 1/2 e : C_a : (e - 2 D)),   Eq. (16)
+//   psi = 1/2 (e - D):C:(e - D) + (1 - phi) (2 mu S : dev D - 1/2 e:C_a:(e - 2 D)),   Eq. (16)
 //
-// It leaves 1/2 D:C_a:D, so that the second derivative by D stays constant. No deal.II header here: see
-// matrix3.h.
+// The term 1/2 D:C_a:D is not guarded, so that the second derivative by D stays constant. No
+// deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// Fibres in an isotropic material: 1/2 e:C:e has alpha/2 (a.e a)^2 more.
+  /// Fibres in an isotropic material, which add alpha/2 (a.e a)^2 to 1/2 e:C:e.
   template <typename Number>
   struct Fibrous
   {
@@ -64,7 +65,7 @@ namespace Exemplar
       return { lambda, mu, factor * alpha, a };
     }
 
-    /// As min_density_at_kink(), whatever phi is; `undamped` is the isotropic part without damping.
+    /// min_density_at_kink() for any phi; `undamped` is the isotropic part without damping.
     Number
     min_density(const Isotropic<Number> &undamped) const
     {
@@ -95,19 +96,19 @@ namespace Exemplar
                    anisotropic_stress(material, E));
   }
 
-  /// Any C that is positive definite: orthotropy, with fibres or without.
+  /// Any positive definite C: orthotropy, with fibres or without.
   template <typename Number>
   struct Anisotropic
   {
     static constexpr const char *name         = "anisotropic";
     static constexpr bool        is_isotropic = false;
 
-    static constexpr std::size_t n_entries = 21; ///< of C that may differ
+    static constexpr std::size_t n_entries = 21; ///< entries of the symmetric 6 x 6 matrix of C
     static constexpr std::size_t n_numbers = 3 + n_entries;
 
     static constexpr std::array<LawConstant, 0> own_constants{};
 
-    Number lambda, mu;       ///< of the isotropic material nearest to C, which is C_iso
+    Number lambda, mu;       ///< Lamé's constants of C_iso, the isotropic material nearest to C
     Number least;            ///< half the least eigenvalue of C, without damping
     Number entry[n_entries]; ///< rows of the upper triangle of C, in the order of SymmetricEntries
 
@@ -161,7 +162,7 @@ namespace Exemplar
       return C;
     }
 
-    /// As min_density_at_kink(), whatever phi is.
+    /// min_density_at_kink() for any phi.
     Number
     min_density(const Isotropic<Number> & /*undamped*/) const
     {
@@ -176,7 +177,7 @@ namespace Exemplar
   {
     SymmetricEntries<Number> of_E = pack(E), T;
     for (std::size_t k = 3; k < n_symmetric; ++k)
-      of_E[k] += of_E[k]; // C sees each shear twice
+      of_E[k] += of_E[k]; // C contracts each shear twice
     for (Number &entry : T.value)
       entry = Number(0.);
     std::size_t k = 0;
@@ -201,7 +202,7 @@ namespace Exemplar
 
   // The guard of Eq. (16), as elasticity.h has it for isotropic materials.
 
-  /// factor (2 mu S : dev D - 1/2 e:C_a:(e - 2 D)) [Pa].
+  /// Energy of the guard, factor (2 mu S : dev D - 1/2 e:C_a:(e - 2 D)) [Pa].
   template <typename Number, template <typename> class Grain>
   Number
   guard_energy(const Grain<Number>   &material,
@@ -216,7 +217,7 @@ namespace Exemplar
                             combine(Number(1.), e, Number(-2.), D));
   }
 
-  /// Its derivative by S, added to T [Pa].
+  /// T plus the derivative of the guard's energy by S [Pa].
   template <typename Number, template <typename> class Grain>
   Matrix3<Number>
   add_guard_of_target(const Matrix3<Number> &T,
@@ -225,7 +226,7 @@ namespace Exemplar
                       const Matrix3<Number> &e,
                       const Matrix3<Number> &D)
   {
-    if (!any(factor * factor > Number(0.))) // in nearly all cells
+    if (!any(factor * factor > Number(0.))) // the guard does not act, as in nearly all cells
       return T;
     const Matrix3<Number> of_grain
         = anisotropic_stress(material, combine(Number(1.), e, Number(-1.), D));
@@ -233,7 +234,7 @@ namespace Exemplar
                    -factor, of_grain);
   }
 
-  /// Its derivative by D, added to T [Pa].
+  /// T plus the derivative of the guard's energy by D [Pa].
   template <typename Number, template <typename> class Grain>
   Matrix3<Number>
   add_guard_of_stretch(const Matrix3<Number> &T,
@@ -246,7 +247,7 @@ namespace Exemplar
                    factor, anisotropic_stress(material, e));
   }
 
-  /// Those of a law that the keys of Material choose.
+  /// Traits of a law under another name, which keys of Material choose.
   constexpr ModelTraits
   with_name(ModelTraits traits, const char *name)
   {
@@ -266,8 +267,8 @@ namespace Exemplar
 
     using Corotational::Corotational;
 
-    /// Whether the guard of the stretch may act in some lane, told by the energy density of the
-    /// elasticity [Pa] alone.
+    /// Necessary condition for the guard of the stretch to act in some lane, by the energy density
+    /// of the elasticity [Pa].
     bool
     may_be_stretched(const Number &elastic_density) const
     {

@@ -5,13 +5,13 @@
 #include <exemplar/kernels/quadratic_cell.h>
 
 // Green's strain e = 1/2 (F^T F - I) with the energy density 1/2 (e - D) : C : (e - D), the
-// material of example-based elasticity in Martin et al. 2011 and, with incompatible
-// example strains as here, Schumacher et al. 2012. It cannot tell a cell from its mirror
-// image. No deal.II header here: see matrix3.h.
+// material of example-based elasticity in Martin et al. 2011 and, with incompatible example strains
+// as here, Schumacher et al. 2012. A cell and its mirror image have the same energy. No deal.II
+// header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// 1/2 (F^T F - I).
+  /// Green's strain 1/2 (F^T F - I).
   template <typename Number>
   Matrix3<Number>
   green_strain(const Matrix3<Number> &deformation_gradient)
@@ -26,7 +26,7 @@ namespace Exemplar
     return strain;
   }
 
-  /// A deformed cell; see CorotationalCell, of which the rotation is I.
+  /// A deformed cell with the members of CorotationalCell; its rotation is I.
   template <typename Number>
   class GreenCell : public QuadraticCell<Number>
   {
@@ -65,7 +65,7 @@ namespace Exemplar
     {
     }
 
-    /// |F T| <= |F| |T|, of which |F|^2 = 3 at rest.
+    /// Upper bound |F| / sqrt(3) of |F T| / |T|, scaled to 1 at rest.
     Number
     force_factor() const
     {
@@ -93,9 +93,9 @@ namespace Exemplar
                      F * stress(this->material, symmetric_part(transpose_times(F, dF))));
     }
 
-    /// From now on response() keeps the positive part of T only: it is never negative, and
-    /// together with the columns example_response() the Hessian of a convex function of F
-    /// and the weights.
+    /// Let response() use the positive part of T only: it becomes positive semidefinite, and
+    /// together with the columns example_response() the Hessian of a convex function of F and the
+    /// weights.
     void
     make_convex()
     {

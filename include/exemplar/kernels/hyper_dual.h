@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 
-// Numbers that carry derivatives: dual and hyper-dual numbers, for the laws of a cell, which are written for any number type. No deal.II
-// header here: see matrix3.h.
+// Dual and hyper-dual numbers, which carry derivatives, for the laws of a cell, which are templates
+// of the number type. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// A number with its derivatives by n parameters. Those of constants are zeros, with which the loops below, without
-  /// branches, are faster than with a look at them.
+  /// A number with its derivatives by n parameters. The derivatives of constants are stored as
+  /// zeros: loops without branches are faster than tests for constants.
   template <std::size_t n>
   struct Dual
   {
@@ -25,7 +25,7 @@ namespace Exemplar
     /// A constant.
     explicit Dual(const double value) : value(value) {}
 
-    /// One that changes with the first parameter.
+    /// A function of the first parameter, with derivative `change`.
     Dual(const double value, const double change) : value(value)
     {
       by[0] = change;
@@ -65,14 +65,13 @@ namespace Exemplar
     }
   };
 
-  /// A number f(t, p) where t = 0, with df/dt, the derivatives by n parameters p, and the derivatives of df/dt
-  /// by them: hyper-dual numbers (Fike and Alonso 2011), of which one direction is t. What is computed with
-  /// them is exact but for rounding.
+  /// A hyper-dual number (Fike and Alonso 2011): a function f(t, p) at t = 0, with df/dt, its
+  /// derivatives by n parameters p, and those of df/dt by p. Arithmetic is exact up to rounding.
   template <std::size_t n>
   struct HyperDual
   {
     double                value     = 0.;
-    double                change    = 0.; ///< by t
+    double                change    = 0.; ///< df/dt
     std::array<double, n> by        = {};
     std::array<double, n> change_by = {};
 
@@ -81,7 +80,7 @@ namespace Exemplar
     /// A constant.
     explicit HyperDual(const double value) : value(value) {}
 
-    /// One that changes with t.
+    /// A function of t, with derivative `change`.
     HyperDual(const double value, const double change) : value(value), change(change) {}
 
     HyperDual &
@@ -128,7 +127,7 @@ namespace Exemplar
     }
   };
 
-  /// g(x), of which the value and the first two derivatives are these.
+  /// Chain rule for g(x), given the value and the first two derivatives of g at x.
   template <std::size_t n>
   HyperDual<n>
   chained(const HyperDual<n> &x, const double g, const double first, const double second)
@@ -151,7 +150,7 @@ namespace Exemplar
     return result;
   }
 
-  // For numbers with derivatives of both kinds.
+  // The following functions are for both kinds of numbers.
 
   template <template <std::size_t> class Kind, std::size_t n>
   Kind<n>
@@ -204,7 +203,7 @@ namespace Exemplar
     return x /= y;
   }
 
-  // Decisions depend on values alone.
+  // Comparisons depend on values alone.
 
   template <template <std::size_t> class Kind, std::size_t n>
   bool

@@ -4,12 +4,12 @@
 
 #include <exemplar/kernels/stretch_guard.h>
 
-// A stress tau that a cell carries from the beginning, in the axes of its rest pose: the energy density
+// An initial stress tau of a cell, in the axes of its rest pose, with the energy density
 //
 //   tau : (S - I) - (1 - phi) S : dev tau,        Eq. (39)
 //
-// of the symmetric factor S of F = R S, with the guard phi of Eq. (16), without which it would jump where the
-// rotation is ambiguous. No deal.II header here: see matrix3.h.
+// where S is the symmetric factor of F = R S, and phi the guard of Eq. (16), without which the
+// energy would jump where the rotation is ambiguous. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
@@ -17,7 +17,7 @@ namespace Exemplar
   class InitialStress
   {
   public:
-    /// The rotation is that of the deformation gradient.
+    /// `rotation` is that of `deformation_gradient`.
     InitialStress(const Matrix3<double> &tau,
                   const Matrix3<double> &rotation,
                   const Matrix3<double> &deformation_gradient)
@@ -33,14 +33,14 @@ namespace Exemplar
       W          = skew_part_of_force(commutator(S, T));
     }
 
-    /// [J/m^3], 0 at rest.
+    /// Energy density [J/m^3], 0 at rest.
     double
     energy() const
     {
       return contract(tau, S) - trace(tau) - (1. - of_product.phi) * contract(S, deviator_of_tau);
     }
 
-    /// R^T P = T + W + the guard's, as Eq. (17), with P the derivative by F.
+    /// R^T P = T + W + the guard's force, as in Eq. (17), where P is the derivative by F.
     Matrix3<double>
     force() const
     {
@@ -48,7 +48,7 @@ namespace Exemplar
                      of_product.derivative * contract(S, deviator_of_tau), p_derivative(S));
     }
 
-    /// R^T dP for R^T dF = M, as Eq. (18) where C is 0; symmetric in M.
+    /// R^T dP for R^T dF = M, Eq. (18) with C = 0; symmetric in M.
     Matrix3<double>
     response(const Matrix3<double> &M) const
     {
@@ -77,7 +77,7 @@ namespace Exemplar
   private:
     static constexpr double p_0 = 0.8;
 
-    /// The skew X with S X + X S = K.
+    /// The skew matrix X with S X + X S = K.
     Matrix3<double>
     skew_part_of_force(const Matrix3<double> &K) const
     {
@@ -87,7 +87,7 @@ namespace Exemplar
     Matrix3<double> tau, deviator_of_tau;
     Matrix3<double> S;
     Guard<double>   of_product;
-    Matrix3<double> B_inverse; ///< of tr(S) I - S
+    Matrix3<double> B_inverse; ///< inverse of tr(S) I - S
     Matrix3<double> T, W;
   };
 } // namespace Exemplar

@@ -13,18 +13,18 @@
 
 namespace Exemplar
 {
-  /// Cells are stored in batches of this many, each quantity of theirs side by side,
-  /// whatever the width of the CPU's registers.
+  /// Number of cells in a batch, whose quantities are stored side by side, whatever the width of
+  /// the CPU's registers.
   constexpr std::size_t batch_size = 8;
 
-  /// Where entry e of n of a cell's quantity is.
+  /// Position of entry e of a quantity with n entries a cell.
   inline std::size_t
   batch_index(const std::size_t cell, const std::size_t n, const std::size_t e)
   {
     return (cell / batch_size * n + e) * batch_size + cell % batch_size;
   }
 
-  /// How many numbers a quantity of n entries a cell takes: whole batches.
+  /// Size of the array of a quantity with n entries a cell: whole batches.
   inline std::size_t
   batched_size(const std::size_t n_cells, const std::size_t n)
   {
@@ -54,7 +54,7 @@ namespace Exemplar
     return condition;
   }
 
-  /// How many cells a number stands for, and its way to and from memory.
+  /// The lanes of a number type, one a cell, and their loads and stores.
   template <typename Number>
   struct Lanes
   {

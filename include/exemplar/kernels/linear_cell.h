@@ -4,10 +4,10 @@
 
 #include <exemplar/kernels/quadratic_cell.h>
 
-// Laws that hold a rotation R fixed while they differentiate, so that they are linear in F, with the
-// strain e = sym(R^T F) - I and the tangent R K R^T. FrozenCell is the paper's force R T, Eq. (6),
-// which is no gradient with examples. LinearCell has R = I, as if no cell ever turned; it shows what
-// corotation is for. No deal.II header here: see matrix3.h.
+// Laws that hold the rotation R fixed under differentiation, so that they are linear in F, with the
+// strain e = sym(R^T F) - I and the tangent R K R^T. FrozenCell has the paper's force R T, Eq. (6),
+// which is no gradient with examples. LinearCell has R = I, linear elasticity; it serves as a
+// comparison with corotation. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 
-// The matrix of a cell, block by block, from the response of its force to changes of F, and where it
-// is added.
+// The matrix of a cell, block by block, from the response of its force to changes of F, and its
+// addition to the global one.
 
 namespace Exemplar::Loops
 {
-  /// Where the columns of the matrix of a cell (with all its points) go, if batch `begin` is the
+  /// Positions of the columns of a cell's matrix (sum over its points), if batch `begin` is the
   /// first.
   template <int n_nodes>
   inline const int *
@@ -21,11 +21,11 @@ namespace Exemplar::Loops
            + n_block_columns(n_nodes) * ((cell - begin * batch_size) / points_of_cell(n_nodes));
   }
 
-  /// Three columns of each block, with space for four rows, of the cells of a group.
+  /// The blocks of the cells of a group: three columns each, with space for four rows.
   template <typename Number, int n_nodes>
   using BlockColumns = double[n_block_columns(n_nodes)][4][LaneGroup<Number>::width];
 
-  /// V R times the responses of a cell to changes e_k (x) g of R^T F, for three k.
+  /// V R times the responses of a cell to the changes e_k (x) g of R^T F, k = 0, 1, 2.
   template <typename Cell, typename Number>
   inline void
   node_responses(const Cell            &cell,
@@ -42,7 +42,7 @@ namespace Exemplar::Loops
     }
   }
 
-  /// d f_a / d x_b for the cells of a group.
+  /// Blocks d f_a / d x_b of the cells of a group.
   template <typename Cell, typename Number, int n_nodes>
   inline void
   cell_blocks(const Cell                         &cell,
@@ -54,8 +54,8 @@ namespace Exemplar::Loops
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         VR[i][j] *= tet.volume;
-    // node b moves by the unit vector k of the rotated frame; of these three responses that to a
-    // unit vector j of space is a combination
+    // responses to unit displacements of node b along axes k of the rotated frame, which are
+    // combined to those along axes j of space
     for (int b = 0; b < n_nodes; ++b)
     {
       Matrix3<Number> response[3];
@@ -76,7 +76,7 @@ namespace Exemplar::Loops
     }
   }
 
-  /// Add the matrices of the cells of a group, those of the points of one cell at once.
+  /// Add the matrices of the cells of a group, summed over the points of a cell.
   template <typename Number, int n_nodes>
   inline void
   add_blocks(const CellTask                      &task,

@@ -4,12 +4,12 @@
 
 #include <exemplar/kernels/loops_tangent.h>
 
-// The loop over the cells of a batch that finds the columns G of Eqs. (9) and (40): by how much a unit of
-// each example's weight reduces the forces.
+// The loop for the coupling columns G of Eqs. (9) and (40): the decrease of the forces for a unit
+// of each example's weight.
 
 namespace Exemplar::Loops
 {
-  /// The nodal forces factor V R dP g_a of example i into its entries for each cell.
+  /// Store the nodal forces factor V R dP g_a of example i for each cell.
   template <typename Number, int n_nodes>
   inline void
   store_coupling(const CellArrays                   &cells,
@@ -34,7 +34,8 @@ namespace Exemplar::Loops
       }
   }
 
-  /// Beside R K R^T: the forces eta V R (C:E_i) g_a of frozen rotations, Eq. (9).
+  /// Coupling that belongs to R K R^T: the forces eta V R (C:E_i) g_a with fixed rotations,
+  /// Eq. (9).
   template <typename Constants, int n_nodes, typename Number>
   inline void
   couple_rotated(const CellTask &task, const LaneGroup<Number> &group, double *forces)
@@ -49,7 +50,7 @@ namespace Exemplar::Loops
           forces);
   }
 
-  /// Beside the tangent of the model: Eq. (40).
+  /// Coupling that belongs to the tangent of the law, Eq. (40).
   template <typename Cell, int n_nodes, typename Number>
   inline void
   couple_exactly(const CellTask          &task,
@@ -60,7 +61,7 @@ namespace Exemplar::Loops
     const auto            tet    = load_tetrahedron<n_nodes>(task.cells, group);
     const Matrix3<Number> R      = load_rotation(task.cells, group);
     Number                factor = Number(1.);
-    // the damped target moves by 1/(1+s) of what the examples' does, see damped_target()
+    // the damped target changes by 1/(1+s) times the examples' target, see damped_target()
     if (task.damping.factors != nullptr)
       factor /= Number(1.) + load(task.damping.factors, group, 1, 0);
     const Cell cell = driven_cell<Cell>(task, tangent, group, tet, R);

@@ -5,11 +5,12 @@
 #include <exemplar/kernels/loops_rotations.h>
 #include <exemplar/kernels/patch_cell.h>
 
-// What cells tell their patches, Eqs. (25) and (26), before these tell them their pressures.
+// The cells' contributions to patches, Eqs. (25) and (26), before the patches' pressures are known.
 
 namespace Exemplar::Loops
 {
-  /// r of the cells of a group. Kept apart for what hardly any cell needs.
+  /// The supplement r of ThinTrace in the cells of a group. Not inlined, as hardly any cell needs
+  /// it.
   template <typename Number>
   [[gnu::noinline, gnu::cold]] Number
   supplement_of_thin(const CellTask          &task,
@@ -38,7 +39,7 @@ namespace Exemplar::Loops
       store(task.cells, group, cof[k / 3][k % 3], to.cofactors, 9, k);
   }
 
-  /// Let the pressure of its patch act in a cell that has one along cof F.
+  /// Add the pressure of its patch along cof F to a cell, Eq. (37).
   template <typename Cell, typename Number>
   [[gnu::always_inline]] inline void
   add_volume_pressure(const CellTask &task, const LaneGroup<Number> &group, Cell &cell)
@@ -48,7 +49,7 @@ namespace Exemplar::Loops
         cell.add_volume_pressure(load(task.dilatation.volume.pressures, group, 1, 0));
   }
 
-  /// What a patch adds to the stress of its cells; zero where the cells have none.
+  /// Stress of a patch in its cells; zero where there is none.
   template <typename Number>
   struct PatchStress
   {
@@ -119,7 +120,7 @@ namespace Exemplar::Loops
            && any(load(stretch.transitions, group, 1, 0) > Number(0.));
   }
 
-  /// Whether a patch does more to some cell of a group than to press.
+  /// Whether a patch adds more than a pressure to some cell of a group.
   template <typename Number>
   inline bool
   is_special(const DilatationArrays &dilatation, const LaneGroup<Number> &group)

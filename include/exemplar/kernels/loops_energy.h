@@ -5,12 +5,11 @@
 #include <exemplar/kernels/loops_dilatation.h>
 #include <exemplar/kernels/loops_examples.h>
 
-// The loop that evaluates energies, forces and their scales, and the one for the linear term of the
-// weights.
+// The loops for energies, forces and their scales, and for the linear term of the weights.
 
 namespace Exemplar::Loops
 {
-  /// How many cells are in some state, at any of their points.
+  /// Number of cells in some state, at any of their points.
   template <typename Number, int n_nodes>
   class CellCount
   {
@@ -50,10 +49,10 @@ namespace Exemplar::Loops
   private:
     Number      lanes = Number(0.);
     double      n     = 0.;
-    std::size_t end   = 0; ///< behind the last cell that was counted
+    std::size_t end   = 0; ///< index after the last cell that was counted
   };
 
-  /// CellSums, of the cells of each lane apart.
+  /// CellSums, separate for each lane.
   template <typename Number, int n_nodes>
   struct LaneSums
   {
@@ -92,7 +91,7 @@ namespace Exemplar::Loops
     }
   };
 
-  /// Add the forces of the cells' nodes and their scales to the sums of the nodes.
+  /// Add the cells' nodal forces and their scales to `nodal_sums`.
   template <typename Number, int n_nodes>
   [[gnu::always_inline]] inline void
   add_forces(const CellTask                     &task,
@@ -138,9 +137,9 @@ namespace Exemplar::Loops
     }
   }
 
-  /// Adds the guard of the stretch, where it acts. It begins anew from the positions and is kept
-  /// out of evaluate_group(), whose numbers would otherwise have to outlive their registers for
-  /// what hardly any cell needs.
+  /// Add the guard of the stretch, where it acts. It starts anew from the positions in a function
+  /// apart from evaluate_group(), whose numbers would otherwise be kept out of registers for what
+  /// hardly any cell needs.
   template <typename Cell, int n_nodes, typename Number>
   [[gnu::noinline, gnu::cold]] void
   add_stretch_guard(const CellTask            &task,
@@ -165,7 +164,8 @@ namespace Exemplar::Loops
     add_forces(task, group, tet, RP, Number(0.), nodal_sums);
   }
 
-  /// Adds the forces of patches beside their pressures, where there are some, apart like the guard.
+  /// Add the forces of patches beside their pressures, where there are any, in a function apart
+  /// like the guard.
   template <typename Cell, int n_nodes, typename Number>
   [[gnu::noinline, gnu::cold]] void
   add_stress_of_special(const CellTask &task, const LaneGroup<Number> &group, double *nodal_sums)
@@ -237,7 +237,7 @@ namespace Exemplar::Loops
     }
     else
     {
-      // what a law remembers costs energy that is no longer elastic, and acts like a target
+      // history variables have inelastic energy, and act like a target
       if constexpr (Cell::traits.n_history > 0)
       {
         sums.energy += tet.volume * cell.energy();
@@ -273,7 +273,7 @@ namespace Exemplar::Loops
         RP[i][j] *= tet.volume;
     add_forces(task, group, tet, RP, tet.volume * (cell.force_factor() * scale + patch.scale),
                nodal_sums);
-    if (patch.acts) // the guard is the patch's, then
+    if (patch.acts) // the guard of the stretch is the patch's, then
       add_patch_stress<Cell, n_nodes>(task, group, nodal_sums);
     else if (cell.may_be_stretched(density))
       add_stretch_guard<Cell, n_nodes>(task, group, nodal_sums, sums);

@@ -4,8 +4,8 @@
 
 #include <exemplar/kernels/loops_io.h>
 
-// What the example poses and the damping do to the cells of a group: the target strain D of
-// Eq. (16) and the sums for the derivatives by the weights.
+// The examples in the cells of a group: the target strain D of Eq. (16) and the sums for the
+// derivatives by the weights.
 
 namespace Exemplar::Loops
 {
@@ -38,14 +38,14 @@ namespace Exemplar::Loops
     for (unsigned int i = 0; i < examples.n; ++i)
     {
       if (examples.share_start == nullptr && task.weights[examples.first + i] == 0.)
-        continue; // of many examples with bounded weights most have weight 0
+        continue; // with many examples and bounded weights most weights are 0
       const Number w = weight(task, group, i);
       for (std::size_t k = 0; k < n_symmetric; ++k)
         sum[k] += w * load(strains, group, n_symmetric * examples.n, n_symmetric * i + k);
     }
   }
 
-  /// eta E(w), of the cells of a group.
+  /// The target strain eta E(w) in the cells of a group.
   template <typename Number>
   [[gnu::always_inline]] inline Matrix3<Number>
   target(const CellTask &task, const LaneGroup<Number> &group)
@@ -60,7 +60,7 @@ namespace Exemplar::Loops
     return unpack(sum);
   }
 
-  /// Add a sum of each cell to that of weight i of every region, times the region's share.
+  /// Add a cell's value to the sum of weight i of every region, times the region's share.
   template <typename Number>
   inline void
   share_out(const CellTask          &task,
@@ -104,8 +104,8 @@ namespace Exemplar::Loops
     }
   }
 
-  /// Add factor T : eta E_i to the sums of the weights, for every example i. Each pair of off-diagonal
-  /// entries of T is added up once, because E_i is symmetric.
+  /// Add factor T : eta E_i to the sums of the weights, for every example i. Each pair of
+  /// off-diagonal entries of T is summed first, because E_i is symmetric.
   template <typename Number>
   [[gnu::always_inline]] inline void
   add_weight_sums(const CellTask          &task,

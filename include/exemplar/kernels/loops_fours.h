@@ -2,18 +2,18 @@
 #ifndef exemplar_loops_fours_h
 #define exemplar_loops_fours_h
 
-// Four numbers at once; see loops_io.h.
+// SIMD vectors of four numbers; see loops_io.h.
 
 namespace Exemplar::Loops
 {
-  /// Four numbers of one node or cell; the compiler maps them to the registers that there are.
+  /// Four numbers of one node or cell; the compiler maps them to the registers available.
   using Four = double __attribute__((vector_size(32)));
 
-  /// The same among other doubles.
+  /// Four in an array of doubles, with their alignment.
   using FourInMemory = double __attribute__((vector_size(32), aligned(8), may_alias));
 
-  /// A vector from among numbers that are aligned as numbers are. By memcpy, GCC 12 copies halves and leaves loops rolled;
-  /// Clang 14 takes such types for aligned all the same.
+  /// Load a vector from an array with the alignment of its numbers. By memcpy, GCC 12 copies halves
+  /// and leaves loops rolled; Clang 14 assumes full alignment for the vector types.
   template <typename InMemory, typename Number, typename Vector>
   [[gnu::always_inline]] static inline void
   load_vector(const Number *from, Vector &vector)
@@ -25,7 +25,7 @@ namespace Exemplar::Loops
 #endif
   }
 
-  /// Add a vector to such numbers.
+  /// Add a vector to numbers in an array.
   template <typename InMemory, typename Number, typename Vector>
   [[gnu::always_inline]] static inline void
   add_vector(const Vector &vector, Number *to)
@@ -54,7 +54,7 @@ namespace Exemplar::Loops
     add_vector<FourInMemory>(four, to);
   }
 
-  /// Rows become columns.
+  /// Transpose a 4 x 4 matrix.
   [[gnu::always_inline]] static inline void
   transpose(Four (&rows)[4])
   {

@@ -8,8 +8,8 @@
 
 #include <utility>
 
-// How the loops over the cells read the cells and nodes of a group, and how four numbers of each
-// cell are turned into registers of one number of four cells.
+// Input of the loops over the cells: how they read the cells and nodes of a group, and transpose
+// four numbers of each cell into registers of one number of four cells.
 //
 // All of loops_*.h are templates of the number type. Only the files that compile them for an
 // instruction set include them, each for its own type: two files that instantiated them for the
@@ -17,23 +17,23 @@
 
 namespace Exemplar::Loops
 {
-  /// The cells that are computed at once: as many neighbours in a batch as a register has lanes.
+  /// A group of cells computed at once: as many neighbours in a batch as a register has lanes.
   template <typename Number>
   struct LaneGroup
   {
     static constexpr std::size_t width = Lanes<Number>::n;
 
     std::size_t batch;
-    std::size_t lane; ///< of the first of them in the batch
+    std::size_t lane; ///< lane of the first cell in the batch
 
-    /// The cell in lane l of the register; beyond the last cell the batch is filled with copies.
+    /// The cell in lane l of the register; behind the last cell the batch is filled with copies.
     std::size_t
     cell(const std::size_t l) const
     {
       return batch * batch_size + lane + l;
     }
 
-    /// Where entry e of a quantity with n entries a cell begins.
+    /// Position of entry e of a quantity with n entries a cell.
     std::size_t
     at(const std::size_t n, const std::size_t e) const
     {
@@ -41,7 +41,7 @@ namespace Exemplar::Loops
     }
   };
 
-  /// Quadrature points of a cell with so many nodes.
+  /// Number of quadrature points of a cell with `n_nodes` nodes.
   constexpr std::size_t
   points_of_cell(const int n_nodes)
   {
@@ -51,7 +51,8 @@ namespace Exemplar::Loops
     return 0;
   }
 
-  /// Whether four neighbours in a batch are the points of one cell, so that their nodes are the same.
+  /// Whether four neighbours in a batch are the points of one cell, so that their nodes are the
+  /// same.
   template <int n_nodes>
   constexpr bool fours_share_nodes = points_of_cell(n_nodes) == 4;
 
@@ -72,7 +73,7 @@ namespace Exemplar::Loops
     return Lanes<Number>::load(from + group.at(n, e));
   }
 
-  /// What the compiler calls so many numbers at once.
+  /// The compiler's vector types of n numbers.
   template <std::size_t n>
   struct Registers;
 
@@ -97,7 +98,7 @@ namespace Exemplar::Loops
     using Doubles = double __attribute__((vector_size(64)));
   };
 
-  /// The same of numbers in single precision.
+  /// Load numbers stored in single precision.
   template <typename Number>
   [[gnu::always_inline]] inline Number
   load(const float *from, const LaneGroup<Number> &group, const std::size_t n, const std::size_t e)
@@ -116,7 +117,7 @@ namespace Exemplar::Loops
     }
   }
 
-  /// The constants of a law.
+  /// Load the constants of a law.
   template <typename Constants, typename Number>
   inline Constants
   load_constants(const CellArrays &cells, const LaneGroup<Number> &group)
@@ -126,7 +127,7 @@ namespace Exemplar::Loops
                                    { return load(cells.constants, group, n, k); });
   }
 
-  /// Which cells of a group are of the law that a loop is for.
+  /// Mask of the cells of a group that have the current law.
   template <typename Number>
   inline auto
   of_law(const CellArrays &cells, const LaneGroup<Number> &group)
@@ -166,7 +167,7 @@ namespace Exemplar::Loops
                            });
   }
 
-  /// A cell with the rotation R and the deformation gradient F, with what its law remembers.
+  /// A cell with rotation R and deformation gradient F, and the history variables of its law.
   template <typename Cell, typename Number>
   inline Cell
   make_cell(const CellArrays        &cells,
@@ -191,7 +192,7 @@ namespace Exemplar::Loops
     return R;
   }
 
-  /// Strain i of the n that are stored for each cell.
+  /// Load strain i of the n that are stored for each cell.
   template <typename Number>
   inline Matrix3<Number>
   load_strain(const double            *strains,
@@ -239,8 +240,8 @@ namespace Exemplar::Loops
     return tet;
   }
 
-  /// One register of the numbers of all cells of a group. They do not go by way of memory, because
-  /// a load that is wider than the stores before it has to wait for them.
+  /// Join the numbers of all cells of a group in one register, not by way of memory, because a load
+  /// that is wider than the stores before it has to wait for them.
   template <typename Number>
   inline Number
   join(const Four (&four)[2])
@@ -251,14 +252,14 @@ namespace Exemplar::Loops
       return Number(four[0]);
   }
 
-  /// Where the sums of the cells' nodes are.
+  /// Index of each node of the cells in the nodal sums.
   [[gnu::always_inline]] static inline const int *
   nodal_places(const CellTask &task)
   {
     return task.places != nullptr ? task.places : task.cells.nodes;
   }
 
-  /// The positions of one node of each cell; `positions` holds four numbers a node.
+  /// Load the positions of one node of each cell; `positions` holds four numbers a node.
   template <int n_nodes, typename Number>
   inline void
   load_nodes(const double *positions, const int *nodes, Vector3<Number> &x)
@@ -311,7 +312,7 @@ namespace Exemplar::Loops
       for (int j = 0; j < 3; ++j)
         F[i][j] = sum_of<n_nodes - 1>([&](const int a)
                                       { return edge[a + 1][i] * tet.shape_gradient[a + 1][j]; });
-    // a law may not be defined where cells of another one are
+    // a law may be undefined at the deformation of cells with another law
     if (task.cells.has_other_laws)
       F = select_matrix(tet.volume > Number(0.), F, identity_matrix<Number>());
     return F;

@@ -4,7 +4,7 @@
 
 #include <exemplar/kernels/loops_io.h>
 
-// The product of a matrix on the nodes, as that of the masses, with a field.
+// The product of a nodal matrix, such as the mass matrix, with a field.
 
 namespace Exemplar::Loops
 {

@@ -5,8 +5,8 @@
 #include <exemplar/kernels/loops_blocks.h>
 #include <exemplar/kernels/loops_dilatation.h>
 
-// The tangent of patches, Eqs. (25) and (26): lambda_p V_p b b^T, and what it has in thin cells and where
-// patches are strongly stretched.
+// The tangent of patches, Eqs. (25) and (26): lambda_p V_p b b^T, and further terms in thin cells
+// and in strongly stretched patches.
 
 namespace Exemplar::Loops
 {
@@ -26,7 +26,7 @@ namespace Exemplar::Loops
       const double      *r = cells.rotations + batch_index(point, 9, 0), f = patches.fractions[k];
       const double      *g     = cells.gradients + batch_index(point, n_gradients, 0);
       const int         *place = patches.places + n_nodes * k;
-      Four               R[3]; // its columns
+      Four               R[3]; // columns of R
       for (std::size_t j = 0; j < 3; ++j)
         R[j] = Four{ f * r[j * batch_size], f * r[(3 + j) * batch_size],
                      f * r[(6 + j) * batch_size], 0. };
@@ -41,8 +41,8 @@ namespace Exemplar::Loops
     }
   }
 
-  /// Add u[j] v to column j at the rows of each node from `offsets` on; of the first node, which is the
-  /// column's own, the lower triangle.
+  /// Add u[j] v to column j at the rows of each node from `offsets` on; for the first node, which
+  /// is the column's own, the lower triangle only.
   [[gnu::always_inline]] static inline void
   add_products(const double     *u,
                const double     *v,
@@ -56,7 +56,7 @@ namespace Exemplar::Loops
     load_four(v, own);
     for (int j = 0; j < n_columns; ++j)
       add_four(own * rows[j] * u[j], columns[j]);
-    if (n_columns == 3) // nearly always; this is the inner loop of the assembly
+    if (n_columns == 3) // nearly always; the inner loop of the assembly
       for (std::size_t row = 1; row < n_rows; ++row)
       {
         if (offsets[row] < 0)
@@ -116,7 +116,7 @@ namespace Exemplar::Loops
     }
   }
 
-  /// The response of a cell to what patches add, for cell_blocks().
+  /// The response of the patches' terms in a cell, for cell_blocks().
   template <typename Number, typename Cell>
   struct PatchCellResponse
   {

@@ -4,11 +4,11 @@
 
 #include <exemplar/kernels/loops_io.h>
 
-// The loops that find rotations of cells and mean rotations of nodes.
+// The loops for rotations of cells and mean rotations of nodes.
 
 namespace Exemplar::Loops
 {
-  /// R of the cells of a group, found or loaded as the task says; I of models without rotations.
+  /// R of the cells of a group, computed or loaded as the task says; I for laws without rotations.
   template <typename Cell, typename Number>
   inline Matrix3<Number>
   rotation(const CellTask &task, const LaneGroup<Number> &group, const Matrix3<Number> &F)
@@ -48,7 +48,7 @@ namespace Exemplar::Loops
   using FourFloats         = float __attribute__((vector_size(16)));
   using FourFloatsInMemory = float __attribute__((vector_size(16), aligned(4), may_alias));
 
-  /// R of four cells, each in three vectors of which the last holds one number.
+  /// R of four cells, each in three vectors, the last of which holds one number.
   template <typename Number>
   inline void
   load_rotations(const CellArrays &cells, const LaneGroup<Number> &group, FourFloats (&R)[4][3])
@@ -104,7 +104,7 @@ namespace Exemplar::Loops
         });
   }
 
-  /// The kernels want whole groups: in the last one, lanes behind the last node repeat it.
+  /// Closest rotations by whole groups: in the last one, lanes behind the last node repeat it.
   template <typename Number>
   inline void
   closest_rotations(const std::size_t n, const float *sums, float *rotations)

@@ -4,19 +4,19 @@
 
 #include <exemplar/kernels/loops_blocks.h>
 
-// The loop that adds R K R^T, Eq. (8). The stiffness of an isotropic material is turned by turning
-// the gradients of a cell.
+// The loop that adds R K R^T, Eq. (8). The stiffness of an isotropic material is rotated by
+// rotating the shape gradients of a cell.
 
 namespace Exemplar::Loops
 {
-  /// What makes R K R^T of the cells of a group, Eq. (8), for an isotropic material. Lanes are
-  /// stored apart, because each cell is then added by itself.
+  /// Factors of R K R^T in the cells of a group, Eq. (8), for an isotropic material. Lanes are
+  /// stored, because each cell is then added by itself.
   template <typename Number, int n>
   struct RotatedStiffness
   {
     alignas(64) double g[n][3][LaneGroup<Number>::width];        ///< R g_a
-    alignas(64) double lambda_g[n][3][LaneGroup<Number>::width]; ///< times V lambda
-    alignas(64) double mu_g[n][3][LaneGroup<Number>::width];     ///< times V mu
+    alignas(64) double lambda_g[n][3][LaneGroup<Number>::width]; ///< V lambda R g_a
+    alignas(64) double mu_g[n][3][LaneGroup<Number>::width];     ///< V mu R g_a
     alignas(64) double diagonal[n][n][LaneGroup<Number>::width]; ///< V mu g_a.g_b, a >= b
   };
 
@@ -47,8 +47,8 @@ namespace Exemplar::Loops
     }
   }
 
-  /// Add V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) of some points of one cell, from that
-  /// in `lane` on, with g their rotated gradients, of which the fourth entry is 0.
+  /// Add V (lambda g_a g_b^T + mu (g_b g_a^T + (g_a.g_b) I)) summed over `n_points` points of one
+  /// cell, from that in `lane` on, where g are their rotated gradients, padded by a 0.
   template <typename Number, int n, std::size_t n_points>
   [[gnu::always_inline]] inline void
   add_stiffness(const RotatedStiffness<Number, n> &K,
@@ -65,7 +65,7 @@ namespace Exemplar::Loops
       for (int b = 0; b <= a; ++b)
       {
         const int *column = position + 3 * (a * (a + 1) / 2 + b);
-        if (column[0] < 0) // then all three are left out
+        if (column[0] < 0) // all three columns are left out
           continue;
 #pragma GCC unroll 3
         for (int j = 0; j < 3; ++j)
@@ -76,13 +76,13 @@ namespace Exemplar::Loops
             entries += g[a][p] * K.lambda_g[b][j][lane + p] + g[b][p] * K.mu_g[a][j][lane + p]
                        + unit[j] * K.diagonal[a][b][lane + p];
           if (a == b)
-            entries *= rows[j]; // of diagonal blocks, the lower triangle alone
+            entries *= rows[j]; // only the lower triangle of diagonal blocks
           add_four(entries, values + column[j]);
         }
       }
   }
 
-  /// The rotated gradients a of some cells, each filled up to four numbers by a zero.
+  /// The rotated gradients of node a in four cells, each padded by a 0.
   template <typename Number, int n>
   [[gnu::always_inline]] inline void
   gradients_by_cell(const RotatedStiffness<Number, n> &K,
@@ -102,7 +102,7 @@ namespace Exemplar::Loops
         g[l] = Four{ K.g[a][0][l], K.g[a][1][l], K.g[a][2][l], 0. };
   }
 
-  /// The response of R K R^T, for any C.
+  /// The response of R K R^T for any C: the rotation stays fixed.
   template <typename Constants, typename Number>
   struct FixedResponse
   {
@@ -115,7 +115,7 @@ namespace Exemplar::Loops
     }
   };
 
-  /// The same for a C that is not isotropic.
+  /// Add R K R^T of cells with anisotropic C.
   template <typename Constants, typename Number, int n_nodes>
   inline void
   add_anisotropic_stiffness_of(const CellTask    &task,
@@ -145,7 +145,7 @@ namespace Exemplar::Loops
                              const std::size_t  begin,
                              const std::size_t  end)
   {
-    // points of one cell that are computed at once are added at once
+    // points of one cell in one register are added together
     constexpr std::size_t at_once  = std::min<std::size_t>(4, LaneGroup<Number>::width);
     constexpr std::size_t n_points = std::min(at_once, points_of_cell(n));
 
@@ -157,7 +157,7 @@ namespace Exemplar::Loops
           find_rotated_stiffness<Constants>(task, group, K);
           for (std::size_t first = 0; first < LaneGroup<Number>::width; first += at_once)
           {
-            Four g[n][4]; // of node a, by cell
+            Four g[n][4]; // gradients by node a and cell
             for (int a = 0; a < n; ++a)
               gradients_by_cell(K, first, a, g[a]);
             for (std::size_t l = 0; l < at_once; l += n_points)

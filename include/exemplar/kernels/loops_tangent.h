@@ -5,11 +5,13 @@
 #include <exemplar/kernels/loops_examples.h>
 #include <exemplar/kernels/loops_stiffness.h>
 
-// The tangents of the models that are not R K R^T, Eqs. (18) and (19), and what laws remember.
+// The tangents of laws that are not R K R^T, Eqs. (18) and (19), and the update of history
+// variables.
 
 namespace Exemplar::Loops
 {
-  /// A cell of each lane with its material, positions and target strain, damping included.
+  /// The cell of each lane with its material, deformation and target strain, damping and the
+  /// patch's pressure included.
   template <typename Cell, typename Number, int n_nodes>
   inline Cell
   driven_cell(const CellTask                     &task,

@@ -2,9 +2,8 @@
 #ifndef exemplar_matrix3_h
 #define exemplar_matrix3_h
 
-// Vectors and matrices of three dimensions for the cell kernels. They are
-// generic over the number type and include no deal.II header, because the
-// kernels are to be compiled for several instruction sets.
+// Vectors and matrices of three dimensions for the cell kernels, generic over the number type. They
+// include no deal.II header, because the kernels are compiled for several instruction sets.
 
 #include <exemplar/kernels/lanes.h>
 
@@ -196,7 +195,7 @@ namespace Exemplar
     return C;
   }
 
-  /// Tangent of the angle by which Jacobi's method turns [a b; b d] into a diagonal matrix.
+  /// Tangent of the angle of the Jacobi rotation that diagonalises [a b; b d].
   template <typename Number>
   Number
   jacobi_tangent(const Number &a, const Number &b, const Number &d)
@@ -207,8 +206,8 @@ namespace Exemplar
     return select(is_diagonal, Number(0.), sign / (abs(theta) + sqrt(theta * theta + Number(1.))));
   }
 
-  /// Eigenvalues of a symmetric matrix, in no order, and the eigenvectors in the columns
-  /// of a rotation.
+  /// Eigenvalues of a symmetric matrix, in no order, and the eigenvectors as columns of an
+  /// orthogonal matrix.
   template <typename Number>
   struct Eigensystem
   {
@@ -216,7 +215,7 @@ namespace Exemplar
     Matrix3<Number> vectors;
   };
 
-  /// By cyclic Jacobi rotations; never fails, also where eigenvalues coincide.
+  /// Eigensystem by cyclic Jacobi rotations; robust where eigenvalues coincide.
   template <typename Number>
   Eigensystem<Number>
   symmetric_eigensystem(Matrix3<Number> A)
@@ -248,7 +247,8 @@ namespace Exemplar
     return { { { A[0][0], A[1][1], A[2][2] } }, V };
   }
 
-  /// sum_e f(l_e) v_e v_e^T over the eigenvalues l_e of a symmetric matrix.
+  /// The matrix function sum_e f(l_e) v_e v_e^T over the eigenvalues l_e and eigenvectors v_e of a
+  /// symmetric matrix.
   template <typename Number, typename Function>
   Matrix3<Number>
   spectral_function(const Matrix3<Number> &A, const Function &f)

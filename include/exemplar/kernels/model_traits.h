@@ -8,20 +8,20 @@
 
 namespace Exemplar
 {
-  /// A constant that a law adds to those of elasticity.h: a key of Material and of its regions.
+  /// A constant of a law beside those of elasticity.h: a key of Material and of its regions.
   struct LawConstant
   {
     const char *name;
-    const char *documentation; ///< with its unit
-    double      value;         ///< unless a scene says another
+    const char *documentation; ///< text for users, with the unit
+    double      value;         ///< default
     double      min = 0.;
     double      max = std::numeric_limits<double>::max();
   };
 
-  /// What a law knows of all examples, beside the target strains that they ask of its cells.
+  /// Constants of the examples that are the same in all cells, as opposed to target strains.
   struct ExampleConstants
   {
-    double guard_bound = 0.8; ///< p_0 of Eq. (16), below which the guard acts
+    double guard_bound = 0.8; ///< p_0 of Eq. (16); the guard acts for p < p_0
     double importance  = 0.;  ///< eta; 0 without examples
   };
 
@@ -51,69 +51,71 @@ namespace Exemplar
                    ///< stands for the law's
   };
 
-  /// What distinguishes the models of a cell, beside their formulas. Each model has a constant
-  /// `traits`.
+  /// Properties of a law of cells, beside its formulas; each law has them as a constant `traits`.
   struct ModelTraits
   {
-    /// What scenes call it, as the value of Model/Strain or Model/Gradient.
+    /// Name of the law; its value of Model/Strain where is_strain().
     const char *name;
 
-    /// Its strain measure, for the documentation of Model/Strain; empty for a law that is chosen by
-    /// Model/Gradient or Material.
+    /// The strain measure, for the documentation of Model/Strain; empty for a law that other keys
+    /// choose.
     const char *strain;
 
-    /// R is the rotation of F. In models without rotations it is I, and P = R (R^T P) holds, too.
+    /// Whether R is the rotation of F. In laws without rotations R is I, and P = R (R^T P) holds,
+    /// too.
     bool has_rotations;
 
-    /// The energy contains the guard phi of Eq. (16), which acts in badly inverted cells.
+    /// Whether the energy contains the guard phi of Eq. (16), which acts in badly inverted cells.
     bool has_guard;
 
-    /// The energy has the kink of stretch_guard.h by the elasticity of Material, and its guard, Eq. (24).
+    /// Whether the energy has the kink described in stretch_guard.h, for the elasticity of
+    /// Material, and its guard, Eq. (24).
     bool has_stretch_guard;
 
-    /// R K R^T, Eq. (8), is the derivative of the force.
+    /// Whether R K R^T, Eq. (8), is the exact derivative of the force.
     bool exact_is_rotated;
 
-    /// R K R^T is the tangent that is never indefinite. Else make_convex() turns response() into
-    /// that.
+    /// Whether R K R^T is the convex, positive semidefinite tangent. Otherwise make_convex() turns
+    /// response() into one.
     bool convex_is_rotated;
 
-    /// The derivative of tr(e) by F is R. Then the volume part of the energy may be that of patches of
-    /// cells, Eq. (25).
+    /// Whether the derivative of tr(e) by F is R. Then patches of cells may have the volume part of
+    /// the energy, Eq. (25).
     bool trace_gradient_is_R;
 
-    /// The energy without examples stays as it is when the body turns.
+    /// Whether the energy without examples is invariant under rotations of the body.
     bool turns_freely;
 
-    /// Numbers that it remembers at each point from step to step; 0 at the beginning. Such a law has
-    /// the members remember(), new_history(), inelastic_density() and energy() as well, see make_cell(),
+    /// Number of history variables at each point; their initial values are 0. Such a law also has
+    /// the members remember(), new_history(), inelastic_density() and energy(), see make_cell(),
     /// advance_history() and evaluate() of the loops.
     std::size_t n_history = 0;
 
     static constexpr std::size_t not_remembered = std::numeric_limits<std::size_t>::max();
 
-    /// Index in the history of the equivalent plastic strain that frames show.
+    /// Index in the history of the equivalent plastic strain, which frames show.
     std::size_t plastic_strain = not_remembered;
 
-    /// Index in the history of the dissipated energy density [J/m^3].
+    /// Index in the history of the dissipated energy density, the plastic work [J/m^3].
     std::size_t dissipated = not_remembered;
 
-    /// It has an energy of J = det F beside that of the strain. Then the volume part of that energy may be
-    /// one of the mean of J, Eq. (37), in patches. Such a law has the member add_volume_pressure().
+    /// Whether the energy depends on J = det F beside the strain. Then patches may have its volume
+    /// part, as a function of their mean of J, Eq. (37). Such a law has the member
+    /// add_volume_pressure().
     bool knows_volume = false;
 
-    /// The constants, at most two, whose values above 0 give a cell this law; of several such laws it has the
-    /// last. None: something else chooses it.
+    /// Names of the constants, at most two, whose positive values select this law for a cell; the
+    /// last law selected applies. None: selected by other keys.
     std::array<const char *, 2> chosen_by = { {} };
 
-    /// Whether patches have its part of Eq. (26): what is stretched far of the trace of the strain.
+    /// Whether patches have the terms of Eq. (26), for far stretched cells.
     constexpr bool
     has_guard_of_patches() const
     {
       return has_stretch_guard || knows_volume;
     }
 
-    /// Whether it is a value of Model/Strain.
+    /// Whether the law is a value of Model/Strain.
     constexpr bool
     is_strain() const
     {
@@ -121,7 +123,7 @@ namespace Exemplar
     }
   };
 
-  /// Those of a law that cells have where these constants are greater than 0.
+  /// The traits of a law that is selected where these constants are positive.
   constexpr ModelTraits
   chosen_by(ModelTraits traits, const char *first, const char *second = nullptr)
   {

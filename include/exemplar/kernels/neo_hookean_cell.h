@@ -7,19 +7,20 @@
 
 #include <cmath>
 
-// Cells whose body has the stable neo-Hookean energy of Smith, de Goes and Kim (2018), Eqs. (34) and (35).
-// Examples see the strain e = S - I as those of CorotationalCell do:
+// Cells whose body has the stable neo-Hookean energy of Smith, de Goes and Kim (2018), Eqs. (34)
+// and (35). Examples act on the strain e = S - I as in CorotationalCell:
 //
 //   psi = (1 - eta) psi_b(F) + eta/2 (e - E(w)) : C : (e - E(w)),
 //   psi_b = mu_S/2 (I_C - 3) + lambda_S/2 (J - J_0)^2 - mu_S/2 log(I_C + 1) + const,
 //
-// mu_S = 4/3 mu, lambda_S = lambda + 5/6 mu, J_0 = 1 + mu / lambda_S, so that psi_b is 1/2 e:C:e near the
-// rest pose. The convex tangent is that of CorotationalCell. In patches, Eq. (37), cells have the same psi_b of
-// lambda = 0 and a pressure along cof F. No deal.II header here: see matrix3.h.
+// mu_S = 4/3 mu, lambda_S = lambda + 5/6 mu, J_0 = 1 + mu / lambda_S, so that psi_b is 1/2 e:C:e
+// near the rest pose. The convex tangent is that of CorotationalCell. In patches, Eq. (37), cells
+// have the same psi_b of lambda = 0 and a pressure along cof F. No deal.II header here: see
+// matrix3.h.
 
 namespace Exemplar
 {
-  /// x - log(1 + x) for each lane, x > -1, without loss of digits near 0.
+  /// x - log(1 + x) for each lane, x > -1, without cancellation near 0.
   template <typename Number>
   Number
   beyond_logarithm(const Number &x)
@@ -31,7 +32,7 @@ namespace Exemplar
     return Lanes<Number>::load(lane);
   }
 
-  /// J - 1 for the strain e = S - I, without loss of digits near 0.
+  /// J - 1 for the strain e = S - I, without cancellation near 0.
   template <typename Number>
   Number
   volume_change(const Matrix3<Number> &e)
@@ -40,7 +41,7 @@ namespace Exemplar
     return tr + Number(0.5) * (tr * tr - contract(e, e)) + determinant(e);
   }
 
-  /// psi_b and its derivatives in the frame of the rotation, where F is S.
+  /// psi_b and its derivatives in the frame of the rotation, where F = S.
   template <typename Number>
   class NeoHookean
   {
@@ -54,14 +55,15 @@ namespace Exemplar
     {
     }
 
-    /// p cof F joins P, but no energy the density() [Pa].
+    /// Add p cof F to P; density() does not change [Pa].
     void
     add_pressure(const Number &p)
     {
       pressure += p;
     }
 
-    /// psi_b, 0 at rest: in terms of e, as the sum as written above would lose its digits there [Pa].
+    /// psi_b [Pa], 0 at rest, in terms of e: the sum in terms of F would suffer from cancellation
+    /// there.
     Number
     density() const
     {
@@ -110,12 +112,12 @@ namespace Exemplar
 
     Number          mu, lambda_S;
     Matrix3<Number> S, cof;
-    Number          square, tr, det; ///< of e
+    Number          square, tr, det; ///< invariants of e: |e|^2, tr e, det e
     Number          i, j;            ///< I_C - 3, J - 1
     Number          pressure = Number(0.);
   };
 
-  /// A deformed cell; see CorotationalCell, of which it has all that depends on the weights.
+  /// A deformed cell; CorotationalCell provides all that depends on the weights.
   template <typename Number>
   class NeoHookeanCell : public CorotationalCell<Number>
   {
@@ -168,14 +170,14 @@ namespace Exemplar
     {
     }
 
-    /// What the mean of J of its patch adds to the stress psi_b makes, Eq. (37): p cof F [Pa].
+    /// Add the stress p cof F [Pa] of the patch's mean of J, Eq. (37), to that of psi_b.
     void
     add_volume_pressure(const Number &p)
     {
       body.add_pressure(p);
     }
 
-    /// That of the mean of the strain acts in the examples' part.
+    /// Add the pressure of the patch's mean dilatation, Eq. (25), to the examples' part.
     void
     add_pressure(const Number &p)
     {
@@ -228,7 +230,7 @@ namespace Exemplar
       return attractor.stretch();
     }
 
-    /// The derivative of psi by S, but for guards [Pa].
+    /// The derivative of psi by S without guards [Pa].
     Matrix3<Number>
     stress_towards(const Matrix3<Number> &D) const
     {
@@ -275,7 +277,8 @@ namespace Exemplar
     }
 
   private:
-    /// Of elasticity `share` C, so that eta/2 (e - E):C:(e - E) is its energy for the target E = D / eta.
+    /// The examples' part as a corotational cell with elasticity `share` C: its energy is eta/2
+    /// (e - E):C:(e - E) for the target E = D / eta.
     Corotational
     attractor_of(const Number &share) const
     {
@@ -291,7 +294,7 @@ namespace Exemplar
       return Number(1. - examples.importance);
     }
 
-    /// The attractor's target for one of C (1 + s).
+    /// Ratio of the attractor's target to that of a cell with elasticity C (1 + s).
     Number
     of_target() const
     {

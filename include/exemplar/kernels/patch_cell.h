@@ -4,19 +4,19 @@
 
 #include <exemplar/kernels/corotational_cell.h>
 
-// What patches, Eq. (25), do in thin cells and in strongly stretched patches, which hardly any step has.
-// No deal.II header here: see matrix3.h.
+// Terms of patches, Eq. (25), in thin cells and in strongly stretched patches, both of which are
+// rare. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// A patch is strongly stretched, beta > 0 in Eq. (26), where its mean |F|^2 is beyond a bound that is at
-  /// least this. |F|^2 = 3 at rest; for every Poisson's ratio the guard of a cell begins beyond 6.76, which is
-  /// where beta reaches 1 for the least bound.
+  /// Lower bound of the mean |F|^2 beyond which a patch is strongly stretched, beta > 0 in
+  /// Eq. (26). |F|^2 = 3 at rest; for every Poisson's ratio the guard of a cell begins beyond 6.76,
+  /// which is where beta reaches 1 for the least bound.
   constexpr double min_stretched_square = 5.;
 
-  /// Where y may be less than y_0, from tr S and |F|^2 alone: with I_2 = (tr^2 S - |F|^2) / 2 the product
-  /// p = tr S I_2 - det F is at least 8/9 tr S I_2 if that is positive, as the inequality of the means
-  /// bounds det F.
+  /// Necessary condition for y < y_0 by tr S and |F|^2 alone: with I_2 = (tr^2 S - |F|^2) / 2 the
+  /// product p = tr S I_2 - det F is at least 8/9 tr S I_2 if that is positive, as the inequality
+  /// of arithmetic and geometric means bounds det F.
   template <typename Number>
   auto
   may_be_thin(const Number &trace_of_S, const Number &square)
@@ -25,9 +25,10 @@ namespace Exemplar
            < Number(NearKink<Number>::y_0) * square;
   }
 
-  /// Where the two least stretches nearly cancel, y < y_0 of Eq. (24), tr S has a kink like |s_2 + s_3|,
-  /// and a patch that pulls with more than 2 mu would make it a minimum at which no gradient vanishes. So
-  /// the dilatation of a patch takes tr S + r(y), Eq. (25), whose kink r cancels.
+  /// The extended trace tr S + r(y) of thin cells, Eq. (25). Where the two least stretches nearly
+  /// cancel, y < y_0 of Eq. (24), tr S has a kink like |s_2 + s_3|, and a patch that pulls with
+  /// more than 2 mu would make it a minimum at which no gradient vanishes. The kink of r cancels
+  /// it.
   template <typename Number>
   class ThinTrace
   {
@@ -40,12 +41,12 @@ namespace Exemplar
       any_thin             = any(is_thin);
       const Number u       = select(is_thin, square, Number(1.));
       norm                 = sqrt(u);
-      y                    = select(is_thin, p / u, Number(y_0)); // with which r and r' are 0
+      y                    = select(is_thin, p / u, Number(y_0)); // where r and r' are 0
       r                    = NearKink<Number>(y);
       y_derivative         = y_derivative_of(S, y, u);
     }
 
-    /// Of the S with that strain S - I.
+    /// The trace of S = I + `strain`.
     static ThinTrace
     of_strain(const Matrix3<Number> &strain)
     {
@@ -65,14 +66,14 @@ namespace Exemplar
       return any_thin;
     }
 
-    /// r.
+    /// The supplement r(y).
     const Number &
     supplement() const
     {
       return r.value;
     }
 
-    /// R^T dr/dF.
+    /// R^T dr/dF, for the supplement r.
     Matrix3<Number>
     gradient() const
     {
@@ -100,19 +101,19 @@ namespace Exemplar
     Matrix3<Number>  y_derivative;
   };
 
-  /// What a strongly stretched patch does to a cell of it, Eq. (26): the energy of the patch has
-  /// beta(m_p) Xi.
+  /// Parameters of a strongly stretched patch in one of its cells, Eq. (26): the energy of the
+  /// patch includes beta(m_p) Xi.
   template <typename Number>
   struct StretchedPatch
   {
     Number               beta;
-    Number               by_F;       ///< the factor of F in the stress that beta makes [Pa]
+    Number               by_F;       ///< factor of F in the stress from the derivative of beta [Pa]
     Number               stiffness;  ///< beta lambda_p [Pa]
-    CellMaterial<Number> elasticity; ///< of the guard Gamma
+    CellMaterial<Number> elasticity; ///< elasticity of the guard Gamma
   };
 
-  /// What patches add to the stress of a cell, beside their pressure, and to its tangent. The cell has
-  /// no target.
+  /// Terms of patches in the stress of a cell, beside their pressure, and in its tangent. The cell
+  /// has no target.
   template <typename Number, typename Cell = CorotationalCell<Number>>
   class PatchCell
   {
@@ -129,7 +130,7 @@ namespace Exemplar
       return thin;
     }
 
-    /// Gamma [Pa].
+    /// The guard's energy density Gamma [Pa], Eq. (24).
     Number
     guard_energy() const
     {
@@ -143,7 +144,7 @@ namespace Exemplar
       return guard.acts() ? guard.force() : Matrix3<Number>{};
     }
 
-    /// R^T P for R^T F = M, where this is the pressure of the cell.
+    /// R^T P for R^T F = M and the pressure of the cell.
     Matrix3<Number>
     force(const Matrix3<Number> &M, const Number &pressure) const
     {
@@ -151,8 +152,8 @@ namespace Exemplar
                      patch.by_F, M);
     }
 
-    /// R^T dP for R^T dF = M, beside what turning R does with the pressure and what couples all nodes of the
-    /// patch; a convex one lacks what may make it indefinite.
+    /// R^T dP for R^T dF = M, without the rotation of R in the pressure's part and the terms that
+    /// couple all nodes of the patch; the convex one lacks terms that may make it indefinite.
     Matrix3<Number>
     response(const Matrix3<Number> &M, const Number &pressure, const bool convex) const
     {

@@ -5,16 +5,16 @@
 #include <exemplar/kernels/corotational_cell.h>
 #include <exemplar/kernels/plastic_flow.h>
 
-// Cells that yield by von Mises in the frame of their rotation. Examples see the whole strain e = S - I, and
-// the body, with all that it dissipates, has a share of 1 - eta, Eq. (33):
+// Cells with von Mises plasticity in the frame of their rotation. Examples act on the whole strain
+// e = S - I, and the body, with its dissipation, has the share 1 - eta, Eq. (33):
 //
 //   psi = (1 - eta) psi_b(e, p) + eta/2 (e - E(w)) : C : (e - E(w)),
 //   psi_b = 1/2 (e - p) : C : (e - p) + what PlasticFlow adds for hardening and flow,
 //
-// least over the plastic strain p, which is trace free. For this p it is the energy of CorotationalCell with the
-// target eta E(w) + (1 - eta) p, up to terms without e. So forces are those of CorotationalCell, and the guard of
-// Eq. (16) holds the plastic strain like that of examples: p sees the strain times phi. No deal.II header here:
-// see matrix3.h.
+// minimised over the trace-free plastic strain p. For this p it is the energy of CorotationalCell
+// with the target eta E(w) + (1 - eta) p, up to terms without e. So forces are those of
+// CorotationalCell, and the guard of Eq. (16) acts on the plastic strain as on that of examples: p
+// is driven by phi times the strain. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
@@ -27,7 +27,8 @@ namespace Exemplar
   public:
     using Constants = PlasticConstants<Number>;
 
-    /// p by xx, yy, yz, xz, xy; the accumulated plastic strain; the plastic work [J/m^3].
+    /// History variables: p as xx, yy, yz, xz, xy; the accumulated plastic strain; the plastic
+    /// work [J/m^3].
     static constexpr std::size_t n_of_strain = 5;
 
     static constexpr ModelTraits traits = chosen_by({ "plastic", "",
@@ -80,7 +81,8 @@ namespace Exemplar
     {
     }
 
-    /// What the last step left, of which load(k) is a number, and the size of this one [s].
+    /// Set the history at the end of the last step, load(k) being variable k, and the size of this
+    /// step [s].
     template <typename Load>
     void
     remember(const Load &load, const double step_size)
@@ -111,7 +113,7 @@ namespace Exemplar
       return all[k];
     }
 
-    /// Of the elastic strain, 1/2 (e - p):C:(e - p) [Pa].
+    /// Energy density of the elastic strain, 1/2 (e - p):C:(e - p) [Pa].
     Number
     elastic_density() const
     {
@@ -128,7 +130,7 @@ namespace Exemplar
       return norm(stress(constants, elastic_strain()));
     }
 
-    /// What is neither elastic nor of the examples: hardening, and the potential of this step's flow [Pa].
+    /// Energy density of hardening, and the potential of this step's flow [Pa].
     Number
     inelastic_density() const
     {
@@ -157,7 +159,7 @@ namespace Exemplar
       return Corotational::stress_towards(with_plastic(D));
     }
 
-    /// Of all; without damping.
+    /// psi for the target strain D, without damping [Pa].
     Number
     energy(const Matrix3<Number> &D) const
     {
@@ -170,7 +172,7 @@ namespace Exemplar
              + inelastic_density();
     }
 
-    /// The same for no target.
+    /// psi without a target [Pa].
     Number
     energy() const
     {
@@ -192,15 +194,15 @@ namespace Exemplar
       Corotational::set_target(with_plastic(D));
     }
 
-    /// Let the rotation stay and p follow, nearly: the second derivative of a convex function, and definite
-    /// where there is no hardening, too.
+    /// Let response() fix the rotation while p follows, nearly: the second derivative of a convex
+    /// function, definite also without hardening.
     void
     make_convex()
     {
       is_convex = true;
     }
 
-    /// With p following.
+    /// R^T dP for R^T dF = M, including the change of p.
     Matrix3<Number>
     response(const Matrix3<Number> &M) const
     {
@@ -222,7 +224,7 @@ namespace Exemplar
     }
 
   protected:
-    /// Whether make_convex() was called.
+    /// Whether make_convex() has been called.
     bool
     has_convex_tangent() const
     {
@@ -230,7 +232,7 @@ namespace Exemplar
     }
 
   private:
-    /// Of that, how much p follows.
+    /// Fraction of the change of p in the convex tangent.
     static constexpr double convex_share = 0.9;
 
     Matrix3<Number>
@@ -241,7 +243,7 @@ namespace Exemplar
                      Number(-2. * convex_share) * of_body * constants.mu, driving(dp));
     }
 
-    /// phi dev e.
+    /// The strain that drives the flow, phi dev e.
     Matrix3<Number>
     driving(const Matrix3<Number> &strain) const
     {
@@ -249,7 +251,7 @@ namespace Exemplar
       return combine(this->phi, d, Number(0.), d);
     }
 
-    /// [Pa]
+    /// Energy density of hardening [Pa].
     Number
     hardening(const Matrix3<Number> &p, const Number &a) const
     {
@@ -257,7 +259,7 @@ namespace Exemplar
              + Number(0.5) * constants.isotropic * a * a;
     }
 
-    /// Of this step [Pa].
+    /// Plastic work of this step [Pa].
     Number
     plastic_work() const
     {
@@ -270,7 +272,7 @@ namespace Exemplar
       return combine(Number(1.), this->strain(), Number(-1.), flow.strain());
     }
 
-    /// A target D of C, or a damped one of C (1 + s), joined by p.
+    /// The target D, for C or with damping for C (1 + s), plus the share of p.
     Matrix3<Number>
     with_plastic(const Matrix3<Number> &D) const
     {
@@ -280,7 +282,7 @@ namespace Exemplar
     Constants           constants;               ///< without damping
     Number              of_body;                 ///< 1 - eta
     Number              moved      = Number(1.); ///< 1 + s with damping
-    bool                is_elastic = true;       ///< nothing has flown, as in most cells
+    bool                is_elastic = true;       ///< no plastic strain, as in most cells
     bool                is_convex  = false;
     PlasticFlow<Number> flow;
     Number              hardening_before = Number(0.), work_before = Number(0.);

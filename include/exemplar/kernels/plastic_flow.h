@@ -6,17 +6,19 @@
 
 #include <array>
 
-// The plastic strain p of a cell at the end of a step that begins with p_n and the accumulated strain a_n:
-// the least, over all p without trace and of sqrt(2/3) |p| <= m, of the incremental energy, Eq. (32),
+// The plastic strain p of a cell at the end of a step that begins with p_n and the accumulated
+// strain a_n: the minimiser, over all trace-free p with sqrt(2/3) |p| <= m, of the incremental
+// energy, Eq. (32),
 //
 //   mu |d - p|^2 + H_k/3 |p|^2 + H_i/2 a^2 + sqrt(2/3) sigma_y g + v/2 g^2,
 //
-// with g = |p - p_n|, there Delta, a = a_n + sqrt(2/3) g, the deviator d of the strain, and the viscosity v over the time
-// step. Where m does not act this is the radial return. No deal.II header here: see matrix3.h.
+// with g = |p - p_n| (Delta in Eq. (32)), a = a_n + sqrt(2/3) g, the deviator d of the strain, and
+// v the viscosity over the step size. Where the bound m is inactive this is the radial return. No
+// deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// Those of Eq. (32), beside Lamé's constants.
+  /// Lamé's constants and those of Eq. (32).
   template <typename Number>
   struct PlasticConstants : Isotropic<Number>
   {
@@ -56,16 +58,16 @@ namespace Exemplar
     }
   };
 
-  /// The plastic strain of a cell at the end of a step, and how it follows the strain.
+  /// The plastic strain of a cell at the end of a step, and its response to the strain.
   template <typename Number>
   class PlasticFlow
   {
   public:
-    /// Nothing has flown.
+    /// No plastic strain.
     PlasticFlow() = default;
 
-    /// From the plastic strain p_n and the accumulated one in a step of that size [s]: 0: none, in which
-    /// nothing flows.
+    /// Compute the flow from the plastic strain p_n and the accumulated strain a_n, in a step of
+    /// this size [s]; 0: outside of steps, where nothing flows.
     PlasticFlow(const PlasticConstants<Number> &constants,
                 const Matrix3<Number>          &d,
                 const Matrix3<Number>          &p_n,
@@ -75,7 +77,7 @@ namespace Exemplar
       begin(constants, d, p_n, a_n, step_size);
     }
 
-    /// Whether d lets something flow where nothing has flown before, for each lane.
+    /// Whether d causes flow where there is no plastic strain yet, for each lane.
     static auto
     begins(const PlasticConstants<Number> &constants, const Matrix3<Number> &d)
     {
@@ -84,7 +86,7 @@ namespace Exemplar
       return two_mu * two_mu * contract(d, d) > yield * yield;
     }
 
-    /// As the constructor, where nothing has flown.
+    /// Compute the flow as the constructor does, on a default object.
     void
     begin(const PlasticConstants<Number> &constants,
           const Matrix3<Number>          &d,
@@ -102,7 +104,7 @@ namespace Exemplar
       threshold         = yield + Number(root) * constants.isotropic * a;
       const Number of_p = two_mu + Number(2. / 3.) * constants.kinematic;
       modulus           = of_p + Number(2. / 3.) * constants.isotropic + v;
-      // the stress that drives the flow
+      // the relative stress that drives the flow
       Matrix3<Number> xi = combine(two_mu, d, -of_p, p);
       size               = at_least_tiny(norm(xi));
       if (!any(size > threshold))
@@ -117,35 +119,35 @@ namespace Exemplar
       flow_along(xi);
     }
 
-    /// p.
+    /// The plastic strain p.
     const Matrix3<Number> &
     strain() const
     {
       return p;
     }
 
-    /// a.
+    /// The accumulated plastic strain a.
     const Number &
     accumulated() const
     {
       return a;
     }
 
-    /// sqrt(2/3) sigma_y g + v/2 g^2 [Pa].
+    /// The potential of the flow, sqrt(2/3) sigma_y g + v/2 g^2 [Pa].
     Number
     dissipation_potential() const
     {
       return (yield + Number(0.5) * v * g) * g;
     }
 
-    /// sqrt(2/3) sigma_y g + v g^2 [Pa].
+    /// The dissipated energy density, sqrt(2/3) sigma_y g + v g^2 [Pa].
     Number
     dissipation() const
     {
       return (yield + v * g) * g;
     }
 
-    /// The change of p with d; symmetric, and between 0 and 1.
+    /// The derivative dp/dd times dd; a symmetric operator with eigenvalues in [0, 1].
     Matrix3<Number>
     response(const Matrix3<Number> &dd) const
     {
@@ -154,7 +156,7 @@ namespace Exemplar
       const Matrix3<Number> dp = inverse_times(combine(two_mu, dd, Number(0.), dd));
       if (!any(multiplier > Number(0.)))
         return dp;
-      // |p| stays
+      // |p| is fixed at its bound
       const Matrix3<Number> w     = inverse_times(p);
       const Number          along = contract(p, w);
       const Number          part  = select((multiplier > Number(0.)) & (along > Number(0.)),
@@ -181,24 +183,24 @@ namespace Exemplar
       turning          = g / size;
       stretching       = select(flows, Number(1.) / (modulus + multiplier), Number(0.));
       p                = combine(Number(1.), p, g, n);
-      p[2][2]          = -(p[0][0] + p[1][1]); // as it is remembered
+      p[2][2]          = -(p[0][0] + p[1][1]); // as restored from the history
       a += Number(root) * g;
     }
 
-    /// The inverse of the second derivative of the energy by p, times X.
+    /// The inverse Hessian of the incremental energy by p, times X.
     Matrix3<Number>
     inverse_times(const Matrix3<Number> &X) const
     {
       return combine(turning, X, (stretching - turning) * contract(n, X), n);
     }
 
-    /// |p| and p:(its change with the multiplier), less than 0, for one multiplier.
+    /// |p| and its scaled derivative p:dp/dk < 0 at a multiplier k.
     struct Length
     {
       Number value, slope;
     };
 
-    /// From |xi|^2, xi:p_n and |p_n|^2 without a multiplier.
+    /// |p| at the multiplier k, from |xi|^2, xi:p_n and |p_n|^2, with xi at k = 0.
     Length
     length(const Number &k, const Number &xi_xi, const Number &xi_p, const Number &p_p) const
     {
@@ -213,8 +215,8 @@ namespace Exemplar
       return { sqrt(max(square, Number(0.))), -slope };
     }
 
-    /// The force k p that keeps |p| at most at `maximum`: |p| falls with k. Newton's method on 1/|p|, which
-    /// is nearly linear in k, between bounds that close in.
+    /// Find the multiplier k of the bound |p| <= `maximum`, with force k p: |p| decreases with k.
+    /// Newton's method on 1/|p|, which is nearly linear in k, safeguarded by bisection.
     void
     find_multiplier(const Matrix3<Number> &xi, const Number &maximum)
     {
@@ -254,15 +256,15 @@ namespace Exemplar
     Number          two_mu     = Number(0.);
     Number          v          = Number(0.);
     Number          yield      = Number(0.); ///< sqrt(2/3) sigma_y
-    Number          threshold  = Number(0.); ///< the same with hardening, before the flow
-    Number          modulus    = Number(1.); ///< by which |xi| falls for a unit of flow
+    Number          threshold  = Number(0.); ///< yield plus isotropic hardening, before the flow
+    Number          modulus    = Number(1.); ///< decrease of |xi| for a unit of flow
     Number          size       = Number(1.); ///< |xi|
     Number          multiplier = Number(0.);
     Number          g          = Number(0.);
-    bool            is_flowing = false;      ///< some lane
-    Matrix3<Number> n;                       ///< direction of the flow, if there is one
-    Number          turning    = Number(0.); ///< eigenvalues of inverse_times() across n
-    Number          stretching = Number(0.); ///< and along it
+    bool            is_flowing = false;      ///< whether some lane flows
+    Matrix3<Number> n;                       ///< direction of the flow
+    Number          turning    = Number(0.); ///< eigenvalue of inverse_times() normal to n
+    Number          stretching = Number(0.); ///< eigenvalue along n
   };
 } // namespace Exemplar
 

@@ -6,18 +6,17 @@
 
 namespace Exemplar
 {
-  /// The rotation R that maximises tr(R^T F), that is the factor of F = R S with
-  /// R proper (det +1) always and S symmetric; S has one negative eigenvalue if
-  /// det F < 0. Where R is not unique (rank of F below 2, or a mirrored F whose two
-  /// smallest singular values agree) one of the maximisers is returned; F = 0
-  /// gives the identity. The result depends on F alone, never on history.
+  /// The rotation R that maximises tr(R^T F): the factor of F = R S where R is always proper (det
+  /// +1) and S symmetric; S has one negative eigenvalue if det F < 0. Where R is not unique (rank
+  /// of F below 2, or a mirrored F whose two smallest singular values agree) one of the maximisers
+  /// is returned; F = 0 gives the identity. The result depends on F alone, never on history.
   ///
-  /// Horn (1987), Eq. (14): with R = R(q), tr(R^T F) = q^T K q for a symmetric traceless 4x4
-  /// matrix K, whose greatest eigenvalue is tr S. It is found by Newton's method on the
-  /// characteristic polynomial, from above, which is monotone. With it R is a polynomial of
-  /// F by Cayley and Hamilton, Eq. (14b), and one Newton step on the group of rotations takes
-  /// its rounding away. Where two eigenvalues nearly coincide both are ill-conditioned, and
-  /// Jacobi's method takes over.
+  /// Horn (1987), Eq. (14): with R = R(q), tr(R^T F) = q^T K q for a symmetric traceless 4x4 matrix
+  /// K, whose greatest eigenvalue is tr S. It is found by Newton's method on the characteristic
+  /// polynomial, which converges monotonically from above. With it R is a polynomial of F by Cayley
+  /// and Hamilton, Eq. (14b), and one Newton step on the group of rotations removes rounding
+  /// errors. Where two eigenvalues nearly coincide both are ill-conditioned, and Jacobi's method is
+  /// used instead.
   template <typename Number>
   Matrix3<Number>
   closest_rotation(const Matrix3<Number> &F);
@@ -31,7 +30,7 @@ namespace Exemplar
       Number value[4][4];
     };
 
-    /// A rotation, if its norm is one.
+    /// A quaternion; a rotation if its norm is one.
     template <typename Number>
     struct Quaternion
     {
@@ -62,8 +61,8 @@ namespace Exemplar
                    w * w - x * x - y * y + z * z } } };
     }
 
-    /// Eigenvector to the greatest eigenvalue by cyclic Jacobi rotations; never
-    /// fails, also where eigenvalues coincide.
+    /// Eigenvector of the greatest eigenvalue by cyclic Jacobi rotations; robust where eigenvalues
+    /// coincide.
     template <typename Number>
     Quaternion<Number>
     eigenvector_by_jacobi(Matrix4<Number> K)
@@ -78,7 +77,7 @@ namespace Exemplar
         a                  = c * old_a - s * b;
         b                  = s * old_a + c * b;
       };
-      const int n_sweeps = 8; // five suffice; the rest costs nothing once it is diagonal
+      const int n_sweeps = 8; // five suffice, and more cost little once K is diagonal
       for (int sweep = 0; sweep < n_sweeps; ++sweep)
         for (int p = 0; p < 3; ++p)
           for (int q = p + 1; q < 4; ++q)
@@ -122,9 +121,9 @@ namespace Exemplar
       return F;
     }
 
-    /// The rotation of G next to a matrix that is one to first order. With the skew part of
-    /// R^T G = S + skew, the turn omega solves (tr(S) I - S) omega = axial(skew - skew^T);
-    /// R (3 I - R^T R) / 2 is orthogonal to second order.
+    /// A Newton step from R, correct to first order, to the rotation of G. With the skew part of
+    /// R^T G = S + skew, the correction omega solves (tr(S) I - S) omega = axial(skew - skew^T); R
+    /// (3 I - R^T R) / 2 is orthogonal to second order.
     template <typename Number>
     Matrix3<Number>
     polished(const Matrix3<Number> &R, const Matrix3<Number> &G)
@@ -183,7 +182,7 @@ namespace Exemplar
       slope               = Number(4.) * lambda * (square - n) - eight_det;
       const Number step   = select(slope > Number(0.), value / slope, Number(0.));
       lambda -= step;
-      if (all(abs(step) <= accuracy)) // the next one would be its square
+      if (all(abs(step) <= accuracy)) // the next step would be its square
         break;
     }
     slope = Number(4.) * lambda * (lambda * lambda - n) - eight_det;
@@ -198,9 +197,9 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         R[i][j] = scale * (lambda * cof[i][j] + factor_G * G[i][j] - GC[i][j]);
-    // far from rest errors grow as 1 / slope^2
+    // errors grow as 1 / slope^2 far from rest
     const Number size = maximum * n;
-    if (any(slope < size)) // of 7.1 size at rest
+    if (any(slope < size)) // slope is 7.1 size at rest
       R = select_matrix(slope < size, Polar::polished(R, G), R);
     const auto is_ambiguous = !(slope > Number(0.006) * size);
     if (any(is_ambiguous))

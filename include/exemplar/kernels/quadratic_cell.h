@@ -7,13 +7,13 @@
 #include <exemplar/kernels/stretch_guard.h>
 #include <exemplar/kernels/tetrahedron.h>
 
-// What all laws so far share. No deal.II header here: see matrix3.h.
+// The common base of all laws. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
   /// A deformed cell of energy density 1/2 (e - D) : C : (e - D) with a strain e that is a function
   /// of F alone, and a target strain D. A law adds the forces and their responses, in the frame of
-  /// its rotation: R^T P for the first Piola-Kirchhoff stress P. CorotationalCell has them all.
+  /// its rotation: R^T P for the first Piola-Kirchhoff stress P. CorotationalCell has all members.
   template <typename Number, typename OfLaw = CellMaterial<Number>>
   class QuadraticCell
   {
@@ -22,7 +22,7 @@ namespace Exemplar
 
     static constexpr std::array<Refusal, 0> refusals{};
 
-    /// The change of e with F, as the rotation sees it.
+    /// The change of e by a change dF of F, for a fixed rotation.
     static Matrix3<Number>
     strain_change(const Matrix3<Number> &rotation,
                   const Matrix3<Number> & /*deformation_gradient*/,
@@ -38,36 +38,36 @@ namespace Exemplar
       return Number(0.) > Number(1.); // false in every lane
     }
 
-    /// Of the elasticity alone, 1/2 e:C:e [Pa].
+    /// Energy density of the elasticity without target, 1/2 e:C:e [Pa].
     Number
     elastic_density() const
     {
       return Number(0.5) * contract(elastic_stress, e);
     }
 
-    /// The size of the stress that it makes, |C:e| [Pa].
+    /// Norm of the elastic stress, |C:e| [Pa].
     Number
     elastic_scale() const
     {
       return norm(elastic_stress);
     }
 
-    /// The same of a target strain.
+    /// Norm of the stress of a target strain, |C:D| [Pa].
     [[gnu::always_inline]] Number
     scale_of(const Matrix3<Number> &D) const
     {
       return norm(stress(material, D));
     }
 
-    /// 1/2 (e - e*) : C : (e - e*), of which stiffness damping has s times.
+    /// Energy density 1/2 (e - e*) : C : (e - e*) of stiffness damping, without its factor s.
     Number
     damping_density(const Matrix3<Number> &past) const
     {
       return energy(past);
     }
 
-    /// Let stiffness damping with the factor s and the strain e* act from now on, and get the
-    /// target that the whole then has. The guard of the stretch belongs to the elasticity and stays.
+    /// Include stiffness damping with the factor s and the strain e*; returns the target of
+    /// elasticity and damping together. The guard of the stretch keeps the undamped elasticity.
     Matrix3<Number>
     damp(const Matrix3<Number> &D, const Number &s, const Matrix3<Number> &past)
     {
@@ -75,22 +75,22 @@ namespace Exemplar
       return damped_target(D, s, past);
     }
 
-    /// Whether the guard of the stretch may act in some lane, told by the energy density of the
-    /// elasticity [Pa] alone.
+    /// Necessary condition for the guard of the stretch to act in some lane, by the energy density
+    /// of the elasticity [Pa].
     bool
     may_be_stretched(const Number & /*elastic_density*/) const
     {
       return false;
     }
 
-    /// Whether it acts in some lane.
+    /// Whether the guard of the stretch acts in some lane.
     bool
     is_stretched() const
     {
       return false;
     }
 
-    /// The guard of the stretch, Eq. (24). Its energy and force are not part of energy() and of the
+    /// The guard of the stretch, Eq. (24), whose energy and force are not part of energy() and the
     /// law's force().
     StretchGuard<Number>
     stretch() const
@@ -98,28 +98,29 @@ namespace Exemplar
       return {};
     }
 
-    /// e.
+    /// The strain e.
     const Matrix3<Number> &
     strain() const
     {
       return e;
     }
 
-    /// C with damping; without the volume part if that is a patch's.
+    /// C with damping, without the volume part where that is a patch's.
     const Constants &
     own_material() const
     {
       return material;
     }
 
-    /// C:(e - D) [Pa].
+    /// The stress C:(e - D) [Pa].
     Matrix3<Number>
     stress_towards(const Matrix3<Number> &D) const
     {
       return stress(material, combine(Number(1.), e, Number(-1.), D));
     }
 
-    /// Computed from e - D, because near an example the expanded square would lose its digits.
+    /// psi, computed from e - D, because near an example the expanded square would suffer from
+    /// cancellation.
     [[gnu::always_inline]] Number
     energy(const Matrix3<Number> &D) const
     {
@@ -127,7 +128,8 @@ namespace Exemplar
       return Number(0.5) * contract(stress(material, deviation), deviation);
     }
 
-    /// -d psi / dD. The derivative of psi by a weight w_i is -eta times this, contracted with E_i.
+    /// The stress -d psi / dD. The derivative of psi by a weight w_i is -eta times its contraction
+    /// with E_i.
     Matrix3<Number>
     weight_stress(const Matrix3<Number> &D) const
     {
@@ -147,7 +149,7 @@ namespace Exemplar
     {
     }
 
-    Constants       material; ///< with damping
+    Constants       material; ///< constants, with damping
     Matrix3<Number> e;
     Matrix3<Number> elastic_stress; ///< C:e, without damping
     Matrix3<Number> T;              ///< C:(e - D), once the target is set

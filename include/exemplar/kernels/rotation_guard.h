@@ -5,12 +5,12 @@
 #include <exemplar/kernels/lanes.h>
 #include <exemplar/kernels/matrix3.h>
 
-// How rotations answer a change, and the guard of Eq. (16) where they are hardly unique. No deal.II header
-// here: see matrix3.h.
+// Derivatives of rotations, and the guard of Eq. (16) where rotations are hardly unique. No deal.II
+// header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// Vector a of the skew matrix W, W b = a x b.
+  /// The axial vector a of the skew matrix W, W b = a x b.
   template <typename Number>
   Vector3<Number>
   axial_vector(const Matrix3<Number> &W)
@@ -38,9 +38,9 @@ namespace Exemplar
     return C;
   }
 
-  /// phi = z^2 (3 - 2 z), z = clamp(p/p_0, 0, 1), and its derivatives by p. The product
-  /// p = (s_1+s_2)(s_2+s_3)(s_3+s_1) of the singular values, s_3 < 0 in a mirrored cell, is
-  /// 8 at rest and 0 where the rotation is ambiguous and the energy with an example would jump.
+  /// The guard phi = z^2 (3 - 2 z), z = clamp(p/p_0, 0, 1), and its derivatives by p. The product
+  /// p = (s_1+s_2)(s_2+s_3)(s_3+s_1) of the singular values, s_3 < 0 in a mirrored cell, is 8 at
+  /// rest and 0 where the rotation is ambiguous and the energy with an example would jump.
   template <typename Number>
   struct Guard
   {
@@ -61,8 +61,8 @@ namespace Exemplar
                     Number(6.) * (Number(1.) - Number(2.) * z) / (p_0 * p_0)) };
   }
 
-  /// Inverse of the symmetric positive semidefinite matrix B = tr(S) I - S with its
-  /// eigenvalues s_i + s_j held above `least`.
+  /// Inverse of the symmetric positive semidefinite matrix B = tr(S) I - S with its eigenvalues
+  /// s_i + s_j bounded below by `minimum`.
   template <typename Number>
   Matrix3<Number>
   bounded_inverse(const Matrix3<Number> &B, const Number &minimum)

@@ -18,8 +18,8 @@
 //
 // with p = (s_1+s_2)(s_2+s_3)(s_3+s_1) and a smooth q >= max(c, 0). At the kink y is about
 // s_2 + s_3 and r' = -1, so that the slope of the whole is about c - 4 q < 0: cells are pushed off
-// the kink to where the energy has a smooth minimum. Gamma is 0 unless |F| > 1 + 0.8/nu and y < y_0.
-// No deal.II header here: see matrix3.h.
+// the kink to where the energy has a smooth minimum. Gamma is 0 unless |F| > 1 + 0.8/nu and
+// y < y_0. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
@@ -36,7 +36,7 @@ namespace Exemplar
     return D;
   }
 
-  /// The change of p_derivative() with S.
+  /// The change of p_derivative() by a change dS of S.
   template <typename Number>
   Matrix3<Number>
   p_second_derivative(const Matrix3<Number> &S, const Matrix3<Number> &dS)
@@ -50,8 +50,8 @@ namespace Exemplar
     return dD;
   }
 
-  /// y = p / |F|^2 is 8/3 at rest and about s_2 + s_3 where that vanishes. r of Eq. (24) and its
-  /// derivatives by y, for y < y_0.
+  /// The function r of Eq. (24) and its derivatives by y, for y < y_0. y = p / |F|^2 is 8/3 at rest
+  /// and about s_2 + s_3 where that vanishes.
   template <typename Number>
   struct NearKink
   {
@@ -78,7 +78,7 @@ namespace Exemplar
     return combine(Number(1.) / u, p_derivative(S), Number(-2.) * y / u, S);
   }
 
-  /// The change of y_derivative_of() = (dp/dS - 2 y S) / |F|^2 with S.
+  /// The change of y_derivative_of() = (dp/dS - 2 y S) / |F|^2 by a change dS of S.
   template <typename Number>
   Matrix3<Number>
   y_second_derivative(const Matrix3<Number> &S,
@@ -104,7 +104,7 @@ namespace Exemplar
   class StretchGuard
   {
   public:
-    /// That of an undeformed cell, which does nothing.
+    /// The inactive guard of an undeformed cell.
     StretchGuard() = default;
 
     /// `p` is the product of the sums of two eigenvalues of S.
@@ -117,7 +117,7 @@ namespace Exemplar
       is_acting                      = (p < Number(y_0) * square) & (rise > Number(0.));
       if (!any(is_acting))
         return;
-      // beside it may be a cell that has collapsed to F = 0, where the ratios would be 0 / 0
+      // another lane may be a cell collapsed to F = 0, where the ratios would be 0 / 0
       const Number u = select(is_acting, square, Number(1.));
       norm           = sqrt(u);
       y              = select(is_acting, p / u, Number(y_0));
@@ -132,7 +132,7 @@ namespace Exemplar
       y_derivative = y_derivative_of(S, y, u);
     }
 
-    /// Whether y is below its bound in some lane.
+    /// Whether y < y_0 in some lane, a necessary condition for the guard to act.
     static bool
     may_act(const Matrix3<Number> &S, const Number &p)
     {
@@ -141,28 +141,28 @@ namespace Exemplar
       return any(p < Number(y_0) * (diagonal + beside + beside));
     }
 
-    /// Whether it acts in some lane.
+    /// Whether the guard acts in some lane.
     bool
     acts() const
     {
       return any(is_acting);
     }
 
-    /// Gamma, where it acts [Pa].
+    /// The energy density Gamma [Pa], where the guard acts.
     Number
     energy() const
     {
       return q[0] * r.value;
     }
 
-    /// R^T dG/dF, where it acts.
+    /// R^T dGamma/dF, where the guard acts.
     Matrix3<Number>
     force() const
     {
       return combine(q[1] * r.value / norm, S, q[0] * r.first, y_derivative);
     }
 
-    /// The change of force() with S, where it acts.
+    /// The change of force() by a change dS of S, where the guard acts.
     Matrix3<Number>
     response(const Matrix3<Number> &dS) const
     {
@@ -189,7 +189,7 @@ namespace Exemplar
     Number           y;
     Number           q[3]; ///< 4 q and its derivatives by |F|
     NearKink<Number> r;
-    Matrix3<Number>  y_derivative; ///< by S
+    Matrix3<Number>  y_derivative; ///< dy/dS
   };
 } // namespace Exemplar
 

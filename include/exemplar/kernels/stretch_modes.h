@@ -6,30 +6,30 @@
 
 #include <array>
 
-// What the convex tangent R K R^T lacks in strongly stretched cells: the resistance of a stretched
-// cell to turning, and the guard's stiffness. Without it Newton's steps are many times too long
-// there. No deal.II header here: see matrix3.h.
+// Terms that the convex tangent R K R^T lacks in strongly stretched cells: the resistance of a
+// stretched cell to rotation, and the guard's stiffness. Without them Newton's steps are many times
+// too long there. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// A quadratic sum_m stiffness_m (direction_m : M)^2 / 2 of M = R^T dF, never negative.
+  /// A non-negative quadratic form sum_m stiffness_m (direction_m : M)^2 / 2 of M = R^T dF.
   struct StretchModes
   {
     std::array<double, 9>          stiffness; ///< [Pa]
     std::array<Matrix3<double>, 9> direction; ///< orthonormal
   };
 
-  /// Whether a cell is stretched as far as the guard of stretch_guard.h begins.
+  /// Whether a cell is stretched so far that the guard of stretch_guard.h may act.
   inline bool
   is_strongly_stretched(const KinkSlope<double> &kink)
   {
     return kink.slope > -kink.margin;
   }
 
-  /// The positive part of the exact tangent of a cell without examples, its target set, less R K
-  /// R^T. Both have the same principal modes (Smith et al. 2019): with the eigenvectors v_i of S
-  /// these are the three turns v_i v_j^T - v_j v_i^T, the three shears v_i v_j^T + v_j v_i^T, and
-  /// combinations of the three stretches v_i v_i^T.
+  /// The positive part of the difference between the exact tangent of a cell without examples, its
+  /// target set, and R K R^T. Both have the same principal modes (Smith et al. 2019): with the
+  /// eigenvectors v_i of S these are the three rotations v_i v_j^T - v_j v_i^T, the three shears
+  /// v_i v_j^T + v_j v_i^T, and combinations of the three stretches v_i v_i^T.
   inline StretchModes
   stretch_modes(const CorotationalCell<double> &cell,
                 const Matrix3<double>          &rotation,

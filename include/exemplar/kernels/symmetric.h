@@ -4,13 +4,13 @@
 
 #include <exemplar/kernels/matrix3.h>
 
-// How symmetric matrices, the strains of cells, are stored: by six numbers xx, yy, zz, yz, xz, xy.
+// Storage of symmetric matrices, the strains of cells: six numbers xx, yy, zz, yz, xz, xy.
 
 namespace Exemplar
 {
   constexpr std::size_t n_symmetric = 6;
 
-  /// The six different entries of a symmetric matrix of 3 x 3.
+  /// The six independent entries of a symmetric 3 x 3 matrix.
   template <typename Number>
   struct SymmetricEntries
   {
@@ -29,7 +29,7 @@ namespace Exemplar
     }
   };
 
-  /// The six numbers of a matrix of which only the upper triangle is seen.
+  /// The six numbers of a matrix, from its upper triangle.
   template <typename Number>
   SymmetricEntries<Number>
   pack(const Matrix3<Number> &S)
@@ -44,8 +44,8 @@ namespace Exemplar
     return { { { e[0], e[5], e[4] }, { e[5], e[1], e[3] }, { e[4], e[3], e[2] } } };
   }
 
-  /// Add a times the symmetric matrix S to number i of the n such matrices that `values` stores
-  /// for each cell, in batches.
+  /// Add a times the symmetric matrix S to matrix i of the n that `values` stores for each cell, in
+  /// batches.
   inline void
   add_to_stored(double                *values,
                 const std::size_t      cell,
@@ -59,7 +59,7 @@ namespace Exemplar
       values[batch_index(cell, n_symmetric * n, n_symmetric * i + k)] += a * entries[k];
   }
 
-  /// The matrix that add_to_stored() has summed up.
+  /// Load the matrix that add_to_stored() has summed up.
   inline Matrix3<double>
   load_stored(const double     *values,
               const std::size_t cell,

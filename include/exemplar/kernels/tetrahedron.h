@@ -15,10 +15,10 @@ namespace Exemplar
   struct Tetrahedron
   {
     Vector3<Number> shape_gradient[n_nodes]; ///< g_a, gradient of shape function a [1/m]
-    Number          volume;                  ///< V, that the point stands for [m^3]
+    Number          volume;                  ///< V, quadrature weight
   };
 
-  /// F = sum_a x_a (x) g_a, Eq. (1).
+  /// The deformation gradient F = sum_a x_a (x) g_a, Eq. (1).
   template <typename Number, int n_nodes>
   Matrix3<Number>
   deformation_gradient(const Tetrahedron<Number, n_nodes> &cell,
@@ -35,8 +35,8 @@ namespace Exemplar
     return F;
   }
 
-  /// sym(R^T F) - I, Eq. (2). If R is the rotation of F, this is the corotated (Biot) strain
-  /// S - I; if R is a rotation that is held fixed, it is the strain of which frozen forces are the
+  /// The corotated strain sym(R^T F) - I, Eq. (2). If R is the rotation of F, this is the Biot
+  /// strain S - I; if R is held fixed, it is the strain whose energy has the frozen forces as its
   /// derivative.
   template <typename Number>
   Matrix3<Number>
@@ -65,7 +65,7 @@ namespace Exemplar
     }
   }
 
-  /// The gradients R g_a.
+  /// The rotated shape gradients R g_a.
   template <typename Number, int n_nodes>
   void
   rotate_gradients(const Tetrahedron<Number, n_nodes> &cell,

@@ -8,27 +8,27 @@
 
 namespace Exemplar
 {
-  /// Which cells of a body a process has, and what makes numbers of cells those of the whole body.
+  /// The cells of a body that a process has, and the exchange of cell data with the whole body.
   class CellOrder
   {
   public:
-    /// `in_file` are the places of this process' cells among the `n_cells` of the body, ascending.
+    /// `in_file` are the indices of this process' cells among the `n_cells` of the body, ascending.
     /// `exchange` must outlive this.
     CellOrder(std::vector<unsigned int> in_file, unsigned int n_cells, const Exchange &exchange);
 
-    /// In the order of the file.
+    /// Indices of this process' cells in the order of the file.
     const std::vector<unsigned int> &
     in_file() const
     {
       return places;
     }
 
-    /// Of values of the cells, equally many each: those of the whole body in the order of its file, the
-    /// same in all processes, which must all call this.
+    /// Gather values of the cells, equally many each, for the whole body in the order of its file,
+    /// the same on all processes. Collective.
     std::vector<double>
     whole(const std::vector<double> &own) const;
 
-    /// What of a whole() this process has.
+    /// The values of a whole() in this process' cells.
     std::vector<double>
     part(const std::vector<double> &of_whole_body) const;
 

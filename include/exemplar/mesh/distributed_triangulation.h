@@ -13,8 +13,8 @@ namespace Exemplar
 {
   /// deal.II's parallel::fullydistributed::Triangulation of the cells of this process, in their
   /// order, with their indices in the whole mesh as numbers of coarse cells. It has no ghost cells:
-  /// what cells of several processes add to a node is summed by the nodes. To be called by all
-  /// processes of `exchange`, which is one over MPI.
+  /// contributions of several processes' cells to a node are summed by nodes. Collective on
+  /// `exchange`, which is one over MPI.
   std::unique_ptr<dealii::Triangulation<3>>
   make_distributed_triangulation(const MeshArrays                &part,
                                  const std::vector<unsigned int> &cells_in_file,

@@ -8,16 +8,17 @@
 
 namespace Exemplar
 {
-  /// What a file is that is no .msh, by its first bytes or else by the end of its name, and how to
-  /// make a mesh of it that can be read. Sentences; empty if neither tells.
+  /// Advice on a file that is no .msh: its format, by its first bytes or else by its extension, and
+  /// how to convert it to a mesh that can be read. Sentences; empty for an unknown format.
   std::string
   remedy_of_mesh(const std::filesystem::path &file, std::string_view bytes);
 
-  /// The same of a file that is none of the surfaces that can be read.
+  /// Advice on a file that is none of the surfaces that can be read, as remedy_of_mesh().
   std::string
   remedy_of_surface(const std::filesystem::path &file, std::string_view bytes);
 
-  /// The same of a file that is called like a surface, if its bytes are of another format.
+  /// Advice on a file with the extension of a surface, if its bytes are of another format, as
+  /// remedy_of_mesh().
   std::string
   remedy_of_content(const std::filesystem::path &surface, std::string_view bytes);
 } // namespace Exemplar

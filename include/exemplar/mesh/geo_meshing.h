@@ -9,18 +9,18 @@
 
 namespace Exemplar
 {
-  /// What the process in which gmsh runs is kept from.
+  /// Restrictions of the process in which gmsh runs.
   enum class Confinement
   {
     none,
-    kernel ///< all that this kernel has
+    kernel ///< all restrictions that the kernel supports
   };
 
-  /// Let gmsh mesh a script, in a copy of this process that runs in a directory. Returns
-  /// what `gmsh -3 -format msh22` writes, with its numbers, its order and its 16 digits; empty if
-  /// gmsh reports an error, see `messages`. With Confinement::kernel the copy may read nothing but
-  /// that directory and the system's files, see confine_this_process(); a comment (see comment_of())
-  /// has the walls that stood. Throws UserError where the kernel has none, SolverFailure as
+  /// Mesh a script by gmsh, in a copy of this process that runs in `directory`. Returns what `gmsh
+  /// -3 -format msh22` writes, with its numbers, its order and its 16 digits; empty if gmsh reports
+  /// an error, see `messages`. With Confinement::kernel the copy may read only that directory and
+  /// the system's files, see confine_this_process(); a comment (see comment_of()) lists the
+  /// restrictions that were in force. Throws UserError where the kernel has none, SolverFailure as
   /// in_process_copy() does.
   std::string
   mesh_script(const std::filesystem::path &script,

@@ -8,17 +8,17 @@
 
 namespace Exemplar
 {
-  /// Where something stands in a script.
+  /// A position in a script.
   struct GeoOrigin
   {
     std::shared_ptr<const std::string> file;
     unsigned int                       line; ///< from 1
   };
 
-  /// A piece of a script.
+  /// A token of a script.
   struct GeoToken
   {
-    /// What a piece is.
+    /// Kind of a token.
     enum class Kind
     {
       word,
@@ -30,18 +30,18 @@ namespace Exemplar
     Kind        kind;
     std::string text;
     GeoOrigin   origin;
-    bool        after_gap; ///< whether blanks or comments stand between it and the one before
+    bool        after_gap; ///< whether blanks or comments precede it
   };
 
-  /// Take a script apart as gmsh does, without its comments. `name` stands for it in messages.
-  /// Throws UserError for what gmsh might read in another way than this does: strings that do not
-  /// end on their line, are longer than gmsh's 1023 bytes or hold a word that ends a skipped part,
-  /// and control characters.
+  /// Split a script into tokens as gmsh does, without its comments. `name` stands for it in
+  /// messages. Throws UserError for text that gmsh might read differently: strings that do not end
+  /// on their line, are longer than gmsh's 1023 bytes or hold a word that ends a skipped part, and
+  /// control characters.
   std::vector<GeoToken>
   tokens_of_geo(const std::string &text, const std::string &name);
 
-  /// Throws UserError with the remedies, for what stands somewhere and could run a program or
-  /// write a file.
+  /// Throws UserError with advice, for `what` at this position, which could run a program or write
+  /// a file.
   [[noreturn]] void
   refuse_geo(const GeoOrigin &origin, const std::string &what);
 } // namespace Exemplar

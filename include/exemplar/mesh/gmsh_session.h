@@ -6,8 +6,8 @@
 
 namespace Exemplar
 {
-  /// gmsh keeps one model for the whole process; here it lives for one mesh, without the settings
-  /// that a user keeps at home.
+  /// A session of gmsh, which has one model for the whole process, for one mesh and without the
+  /// user's settings.
   class GmshSession
   {
   public:
@@ -20,7 +20,7 @@ namespace Exemplar
         = delete;
   };
 
-  /// What tells the library of gmsh that is linked from every other.
+  /// An identity of the linked library of gmsh, which differs between versions and builds.
   std::string
   gmsh_identity();
 } // namespace Exemplar

@@ -6,20 +6,20 @@
 
 namespace Exemplar
 {
-  /// What a scene says of a painted map: "FILE.ply:ATTRIBUTE" or "FILE.csv[:COLUMN]", and what is
-  /// to be done with its values, such as "above 0.5".
+  /// A painted map in a scene: "FILE.ply:ATTRIBUTE" or "FILE.csv[:COLUMN]", followed by the use of
+  /// its values, such as "above 0.5".
   struct MapName
   {
     std::string file;      ///< ends in .ply or .csv
-    std::string attribute; ///< empty: none is named
-    std::string rest;      ///< the words behind it
+    std::string attribute; ///< empty: not given
+    std::string rest;      ///< the words that follow
 
-    /// File and attribute, by which the values are known.
+    /// File and attribute, the key of the values.
     std::string
     name() const;
   };
 
-  /// Take a text apart. Throws UserError, calling it `key`, if it names no such file.
+  /// Parse a text. Throws UserError, calling it `key`, if it names no such file.
   MapName
   split_map_name(const std::string &text, const std::string &key);
 } // namespace Exemplar

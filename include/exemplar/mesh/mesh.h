@@ -14,21 +14,21 @@
 
 namespace Exemplar
 {
-  /// The tetrahedral rest mesh. Node i is the i-th node of the file, cell c its
-  /// c-th tetrahedron; the Triangulation has the same numbering, and results go
-  /// back to disk in it. Of a mesh that processes share, each has a part.
+  /// The tetrahedral rest mesh. Node i is the i-th node of the file, cell c its c-th tetrahedron;
+  /// the Triangulation has the same numbering, and results go back to disk in it. Each process has
+  /// a part of a distributed mesh.
   class Mesh
   {
   public:
-    /// Load as the parameters say, then as below.
+    /// Load a mesh by the parameters, then as below.
     explicit Mesh(const MeshParameters &parameters);
 
     /// Multiply the nodes by `scale`, check, and build the Triangulation. `name` stands for the
-    /// file in messages. Throws UserError with element or node numbers of the file for whatever
-    /// is no valid body, and for a scale that is not positive.
+    /// file in messages. Throws UserError with element or node numbers of the file for an invalid
+    /// body, and for a scale that is not positive.
     Mesh(MshFile contents, const std::string &name, double scale = 1.);
 
-    /// The part of a process. To be made by all processes.
+    /// The part of a process. Collective.
     Mesh(MeshPart part, const std::string &name, double scale);
 
     unsigned int
@@ -43,21 +43,21 @@ namespace Exemplar
       return static_cast<unsigned int>(arrays.cells.size());
     }
 
-    /// Of the body of which this may be a part.
+    /// Facts of the whole body, of which this may be a part.
     const WholeMesh &
     whole() const
     {
       return of_whole;
     }
 
-    /// Of the cells among those of the body.
+    /// The order of this process' cells among those of the body.
     const CellOrder &
     cell_order() const
     {
       return order;
     }
 
-    /// With the processes that have the other parts.
+    /// The exchange with the processes that have the other parts.
     const Exchange &
     exchange() const
     {
@@ -98,27 +98,27 @@ namespace Exemplar
       return arrays.contents.nodes;
     }
 
-    /// The file as read (scaled), to write poses in the same numbering; a part of it where this is
-    /// one, without elements.
+    /// The file as read (scaled), to write poses in the same numbering; for a part of a mesh its
+    /// nodes alone, without elements.
     const MshFile &
     get_contents() const
     {
       return arrays.contents;
     }
 
-    /// The same, of the whole body; only at the root.
+    /// The file of the whole body as read (scaled); only at the root.
     const MshFile &
     contents_of_whole() const
     {
       return file == nullptr ? arrays.contents : *file;
     }
 
-    /// Built when it is asked for first: who only gives others their parts of the mesh needs none.
-    /// All processes that share the mesh must ask.
+    /// The triangulation, built on the first call: a process that only distributes the mesh needs
+    /// none. Collective.
     const dealii::Triangulation<3> &
     get_triangulation() const;
 
-    /// The file as read (scaled), from a mesh that nobody needs any more.
+    /// The file as read (scaled), moved out of a mesh that is no longer needed.
     MshFile
     take_contents() &&
     {
@@ -139,7 +139,7 @@ namespace Exemplar
       return arrays.warnings;
     }
 
-    /// What the lengths of the file were multiplied by.
+    /// Factor of the lengths in the file.
     double
     get_scale() const
     {
@@ -153,26 +153,27 @@ namespace Exemplar
       return of_whole.diameter;
     }
 
-    /// Places of the nodes [m] in the pose of a file, which is checked as by the function of the
-    /// same name, times the mesh's scale. In files of 10-node tetrahedra, here and below, also of
+    /// Places of the nodes [m] in the pose of a file, times the mesh's scale; checked as by the
+    /// free function of this name. For files of 10-node tetrahedra, here and below, also places of
     /// the middles of edges_of().
     std::vector<dealii::Point<3>>
     read_pose(const std::filesystem::path &file) const;
 
-    /// Places of the nodes [m] in one of `poses`, times the mesh's scale. Throws UserError,
-    /// calling the parameter `key`, if it is not there or has another number of nodes.
+    /// Places of the nodes [m] in one of `poses`, times the mesh's scale. Throws UserError, calling
+    /// the parameter `key`, if it is missing or has another number of nodes.
     std::vector<dealii::Point<3>>
     find_pose(const NamedPoses &poses, const std::string &pose, const std::string &key) const;
 
-    /// The inverse: the whole mesh with its nodes at `positions`, divided by the mesh's
-    /// scale, with the file's numbers, order and tags. With places of the middles of edges_of()
-    /// behind those of the nodes, the file gets 10-node tetrahedra. `comment` as in write_msh().
+    /// Write the whole mesh with its nodes at `positions`, divided by the mesh's scale, with the
+    /// file's numbers, order and tags, as read_pose() reads it. With places of the middles of
+    /// edges_of() behind those of the nodes, the file gets 10-node tetrahedra. `comment` as in
+    /// write_msh().
     void
     write_pose(const std::vector<dealii::Point<3>> &positions,
                const std::filesystem::path         &file,
                const std::string                   &comment = "") const;
 
-    /// In bytes.
+    /// Memory in bytes.
     std::size_t
     memory_consumption() const;
 
@@ -181,15 +182,15 @@ namespace Exemplar
     std::string                     name;
     double                          scale;
     WholeMesh                       of_whole;
-    std::shared_ptr<const Exchange> shared;      ///< null in one process
-    const Exchange                 *with_others; ///< that, or the one of one process
+    std::shared_ptr<const Exchange> shared;      ///< null for a single process
+    const Exchange                 *with_others; ///< `shared`, or that of a single process
     CellOrder                       order;
-    std::shared_ptr<const MshFile>  file; ///< null but at the root of several
-    mutable std::unique_ptr<dealii::Triangulation<3>> triangulation; ///< null: nobody has asked yet
+    std::shared_ptr<const MshFile>  file; ///< only at the root of several processes
+    mutable std::unique_ptr<dealii::Triangulation<3>> triangulation; ///< null: not yet built
   };
 
-  /// The numbers in the mesh file of cells of the whole body, in the order of the file, of which each
-  /// process gives those that it has. All processes must call this.
+  /// Element numbers in the mesh file, in its order, of cells of the whole body, of which each
+  /// process gives its own. Collective.
   std::vector<std::size_t>
   whole_elements(const Mesh &mesh, const std::vector<unsigned int> &own_cells);
 } // namespace Exemplar

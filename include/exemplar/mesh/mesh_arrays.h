@@ -10,21 +10,20 @@
 
 namespace Exemplar
 {
-  /// A tetrahedral mesh that has been checked. Node i is the i-th node of the file, cell c its c-th
-  /// tetrahedron.
+  /// A checked tetrahedral mesh. Node i is the i-th node of the file, cell c its c-th tetrahedron.
   struct MeshArrays
   {
-    MshFile                                  contents; ///< as read, nodes scaled [m]
+    MshFile                                  contents; ///< the file as read, with scaled nodes [m]
     std::vector<std::array<unsigned int, 4>> cells;    ///< positively oriented
     std::vector<unsigned int>                material_ids;
-    std::vector<std::size_t>                 element_numbers; ///< the file's
+    std::vector<std::size_t>                 element_numbers; ///< numbers in the file
     std::vector<BoundaryFace>                boundary_faces;
     std::vector<std::string>                 warnings; ///< to show the user
   };
 
   /// Multiply the nodes by `scale`, and check. `name` stands for the file in messages. Throws
-  /// UserError with element or node numbers of the file for whatever is no valid body, and for a
-  /// scale that is not positive.
+  /// UserError with element or node numbers of the file for an invalid body, and for a scale that
+  /// is not positive.
   MeshArrays
   check_mesh(MshFile contents, const std::string &name, double scale);
 

@@ -10,16 +10,15 @@
 
 namespace Exemplar
 {
-  /// What is wrong with a mesh, found on plain arrays and said with the numbers of
-  /// its file. All checks throw UserError. In the order below each may rely on
-  /// the ones before.
+  /// Checks of a mesh on plain arrays, which report errors with the numbers of its file. All throw
+  /// UserError. In the order below each may rely on the ones before.
 
   /// The tetrahedra of a file, in its order.
   struct Tetrahedra
   {
     std::vector<std::array<unsigned int, 4>> nodes;           ///< indices
     std::vector<unsigned int>                material_ids;    ///< |physical tag|
-    std::vector<std::size_t>                 element_numbers; ///< the file's
+    std::vector<std::size_t>                 element_numbers; ///< numbers in the file
   };
 
   /// A face of one tetrahedron.
@@ -34,8 +33,8 @@ namespace Exemplar
   std::string
   list_numbers(const std::vector<std::size_t> &numbers);
 
-  /// Take the tetrahedra out of the file. Refuses none at all, and volume or
-  /// surface elements of any other kind than linear tetrahedra and triangles.
+  /// Extract the tetrahedra of a file. Refuses a file without any, and volume or surface elements
+  /// of any other kind than linear tetrahedra and triangles.
   Tetrahedra
   extract_tetrahedra(const MshFile &contents, const std::string &name);
 
@@ -45,7 +44,7 @@ namespace Exemplar
   std::vector<std::size_t>
   orient_tetrahedra(const MshFile &contents, const std::string &name, Tetrahedra &tetrahedra);
 
-  /// Refuse coordinates [m] that are not finite, or so large that energies could not be: `nodes`
+  /// Refuse coordinates [m] that are not finite, or so large that energies would not be: `nodes`
   /// are places of the nodes of `contents`, and maybe of the middles of edges after them.
   void
   check_places(const std::vector<dealii::Point<3>> &nodes,
@@ -63,16 +62,16 @@ namespace Exemplar
   std::vector<CellFace>
   sorted_faces(const Tetrahedra &tetrahedra);
 
-  /// Refuse two tetrahedra with the same nodes and faces of more than two.
+  /// Refuse two tetrahedra with the same nodes, and faces that more than two share.
   void
   check_faces(const MshFile               &contents,
               const std::string           &name,
               const Tetrahedra            &tetrahedra,
               const std::vector<CellFace> &faces);
 
-  /// Refuse neighbours that lie on the same side of their common face: a cell there is inside out.
-  /// The order of a cell's nodes does not tell, because that of valid cells may differ, too.
-  /// `swapped` are the element numbers that orient_tetrahedra() has returned.
+  /// Refuse neighbours on the same side of their common face: one of them is inverted. The order of
+  /// a cell's nodes does not tell, because it may differ between valid cells, too. `swapped` are
+  /// the element numbers that orient_tetrahedra() has returned.
   void
   check_overlaps(const MshFile                  &contents,
                  const std::string              &name,
@@ -80,7 +79,7 @@ namespace Exemplar
                  const std::vector<CellFace>    &faces,
                  const std::vector<std::size_t> &swapped);
 
-  /// Refuse a mesh of several bodies: cells must hang together through faces.
+  /// Refuse a mesh of several bodies: cells must be connected through faces.
   void
   check_connected(const MshFile               &contents,
                   const std::string           &name,

@@ -7,8 +7,8 @@
 
 namespace Exemplar
 {
-  /// The corners of a tetrahedron between which its edges are, in the order of deal.II and of VTK,
-  /// which gmsh has, too, but for the last two.
+  /// The corners at the ends of a tetrahedron's edges, in the order of deal.II and of VTK, and of
+  /// gmsh except for the last two.
   constexpr unsigned int cell_edges[6][2]
       = { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 1, 3 }, { 2, 3 } };
 
@@ -16,7 +16,7 @@ namespace Exemplar
   std::vector<std::array<unsigned int, 2>>
   edges_of(const std::vector<std::array<unsigned int, 4>> &cells);
 
-  /// The number among them of the edge between two nodes, which must be there.
+  /// Index in edges_of() of the edge between two nodes, which must exist.
   unsigned int
   find_edge(const std::vector<std::array<unsigned int, 2>> &edges, unsigned int a, unsigned int b);
 } // namespace Exemplar

@@ -9,13 +9,13 @@
 
 namespace Exemplar
 {
-  /// The box of MeshParameters as if read from a file.
+  /// The box of MeshParameters in the form of a file.
   MshFile
   generate_box(const std::array<double, 3> &size, const std::array<unsigned int, 3> &n_cells);
 
-  /// Mesh a .geo file by gmsh, in a confined copy of this process and not for ever. gmsh reads a
-  /// text that make_geo_text() makes; the mesh is kept (see kept_bytes()) under the SHA-256 of that
-  /// text and of what meshes it. With `allow_commands` gmsh reads the file itself, may run programs
+  /// Mesh a .geo file by gmsh, in a confined copy of this process with limits. gmsh reads the text
+  /// of make_geo_text(); the mesh is cached (see kept_bytes()) under the SHA-256 of that text and
+  /// of the mesher's identity. With `allow_commands` gmsh reads the file itself, may run programs
   /// and write files, and does so each time. Throws UserError for a .geo that could do that without
   /// being allowed, or that gmsh cannot mesh.
   MshFile

@@ -11,26 +11,25 @@
 #include <string>
 #include <vector>
 
-// What meshes and poses are made of: files, or arrays that stand in for them.
+// Inputs of meshes and poses: files, or arrays instead of them.
 
 namespace Exemplar
 {
-  /// Places of all nodes of a mesh in a pose, in the mesh's order and unit (Mesh/Scale comes
-  /// later), by the name that parameters call the pose by. Places of the middles of edges_of() may
-  /// follow.
+  /// Poses by the names that parameters use: places of all nodes in the mesh's order and unit
+  /// (before Mesh/Scale). Places of the middles of edges_of() may follow.
   using NamedPoses = std::map<std::string, std::vector<dealii::Point<3>>>;
 
   /// Indices of nodes, counted from 0, by the FILE of "nodes FILE".
   using NamedNodes = std::map<std::string, std::vector<unsigned int>>;
 
-  /// A triangle of the boundary: three node indices, and its boundary id. Those of a Mesh are
+  /// A triangle of the boundary: three node indices, and its boundary id. In a Mesh the nodes are
   /// counterclockwise seen from outside.
   struct BoundaryFace
   {
     std::array<unsigned int, 3> nodes;
     unsigned int                boundary_id;
 
-    /// For boost's archives, by which processes send faces to each other.
+    /// Serialise by boost's archives, by which processes send faces to each other.
     template <typename Archive>
     void
     serialize(Archive &archive, unsigned int /*version*/)
@@ -39,15 +38,15 @@ namespace Exemplar
     }
   };
 
-  /// Read, mesh with gmsh (.geo) or generate as the parameters say; not scaled. Throws UserError
+  /// Read, mesh by gmsh (.geo) or generate a mesh by the parameters; not scaled. Throws UserError
   /// unless there is exactly one of file and generator.
   MshFile
   load_mesh(const MeshParameters &parameters);
 
-  /// A mesh from arrays: n nodes [m], cells as four indices of nodes from 0 to n - 1, for each
-  /// cell a material id (none: all 0), and an id for those triangles of the boundary that have
-  /// one. Nodes, triangles and cells are numbered from 1 in this order. Throws UserError for an
-  /// index that is too large and for as many material ids as there are no cells.
+  /// A mesh from arrays: n nodes [m], cells as four indices of nodes from 0 to n - 1, a material id
+  /// for each cell (none: all 0), and an id for those triangles of the boundary that have one.
+  /// Nodes, triangles and cells are numbered from 1 in this order. Throws UserError for an index
+  /// that is too large and for a number of material ids that is not that of the cells.
   MshFile
   make_msh(std::vector<dealii::Point<3>>                   nodes,
            const std::vector<std::array<unsigned int, 4>> &cells,

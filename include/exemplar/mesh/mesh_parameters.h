@@ -10,15 +10,15 @@ namespace Exemplar
 {
   class KeyTable;
 
-  /// What makes the mesh where no file does.
+  /// Generators of a mesh instead of a file.
   enum class MeshGenerator
   {
     none,
     box
   };
 
-  /// Subsection Mesh. Exactly one of `file` and `generator` must be given, unless a program
-  /// hands in a mesh of its own.
+  /// Subsection Mesh. Exactly one of `file` and `generator` must be given, unless a program passes
+  /// its own mesh.
   ///
   /// The box is [0,Lx] x [-Ly/2,Ly/2] x [-Lz/2,Lz/2], cut into nx x ny x nz bricks
   /// of 6 tetrahedra each (Kuhn's subdivision, all along the diagonal from the
@@ -28,48 +28,47 @@ namespace Exemplar
   {
     std::string                 file;
     std::string                 surface;           ///< a file; empty: see surface_file()
-    std::vector<std::string>    carried;           ///< files of surfaces that go along
-    unsigned int                n_cells   = 10000; ///< wanted, if `file` is a surface
-    bool                        repair    = false; ///< whether a surface is mended first
+    std::vector<std::string>    carried;           ///< files of surfaces that are carried along
+    unsigned int                n_cells   = 10000; ///< number wanted, if `file` is a surface
+    bool                        repair    = false; ///< whether to repair a surface first
     MeshGenerator               generator = MeshGenerator::none;
     std::array<double, 3>       box_size{ { 1., 1., 1. } };
     std::array<unsigned int, 3> box_cells{ { 4, 4, 4 } };
     double                      scale = 1.;
-    /// Whether a .geo may run programs and write files. No key: a scene may not allow it to
+    /// Whether a .geo may run programs and write files. No key, so that no scene can allow it to
     /// itself.
     bool allow_commands = false;
 
     void
     declare(KeyTable &keys);
 
-    /// What stands for the mesh in messages: the file, "box" or, with neither, "mesh".
+    /// Name of the mesh in messages: the file, "box" or, with neither, "mesh".
     std::string
     name() const;
 
-    /// Throws UserError unless `carried` are files of surfaces with names of their own.
+    /// Throws UserError unless `carried` are files of surfaces with distinct names.
     void
     check_carried() const;
 
-    /// Whether `file` is a surface, which is to be filled with cells.
+    /// Whether `file` is a surface, to be filled with cells.
     bool
     is_surface() const;
 
-    /// The surface that bounds the body as its maker has it: `surface`, or else `file` if that is
-    /// one; empty if none is named.
+    /// The original surface of the body: `surface`, or else `file` if that is one; empty if none is
+    /// given.
     std::string
     surface_file() const;
   };
 
-  /// Whether a file is a surface, by its extension: .obj, .ply or .stl, in capitals, too.
+  /// Whether a file is a surface, by its extension: .obj, .ply or .stl, also in capitals.
   bool
   is_surface_file(const std::string &file);
 
-  /// What the frames of a surface that is carried are called after: its file without directory and
-  /// extension.
+  /// Name of the frames of a carried surface: its file without directory and extension.
   std::string
   name_of_carried(const std::string &file);
 
-  /// How many cells may be asked for.
+  /// Limits of MeshParameters::n_cells.
   constexpr unsigned int min_n_cells = 10, max_n_cells = 10000000;
 } // namespace Exemplar
 

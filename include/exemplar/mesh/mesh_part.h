@@ -18,7 +18,7 @@ namespace Exemplar
   {
     unsigned int           n_nodes  = 0;
     unsigned int           n_cells  = 0;
-    double                 diameter = 0.; ///< of the bounding box [m]
+    double                 diameter = 0.; ///< diagonal of the bounding box [m]
     std::set<unsigned int> material_ids;
 
     template <typename Archive>
@@ -29,18 +29,18 @@ namespace Exemplar
     }
   };
 
-  /// What a process has of a mesh that several share: its cells, and the nodes of these, both in the
-  /// order of the file.
+  /// The part of a process of a distributed mesh: its cells, and their nodes, both in the order of
+  /// the file.
   struct MeshPart
   {
     WholeMesh                       whole;
     MeshArrays                      arrays;        ///< without elements
     std::vector<unsigned int>       cells_in_file; ///< index of each cell in the whole
-    std::shared_ptr<const Exchange> exchange;      ///< with the others
+    std::shared_ptr<const Exchange> exchange;      ///< exchange with the other parts
     /// The file as read (scaled), at the root; null elsewhere.
     std::shared_ptr<const MshFile> contents_of_whole;
 
-    /// What the root sends of it.
+    /// The members that the root sends.
     template <typename Archive>
     void
     serialize(Archive &archive, unsigned int /*version*/)
@@ -51,7 +51,7 @@ namespace Exemplar
     }
   };
 
-  /// The entries of a list at these places.
+  /// The entries of a list at `places`.
   template <typename T>
   std::vector<T>
   chosen(const std::vector<T> &all, const std::vector<unsigned int> &places)
@@ -63,8 +63,8 @@ namespace Exemplar
     return some;
   }
 
-  /// What a process gets of a whole mesh: these nodes, ascending, and cells and faces of the boundary
-  /// that have no others. The exchange is still to come.
+  /// The part of a whole mesh with these nodes, ascending, and with cells and boundary faces on
+  /// these nodes only. Its exchange is not set.
   MeshPart
   part_of(const Mesh                      &whole,
           const std::vector<unsigned int> &nodes,

@@ -8,11 +8,11 @@
 
 namespace Exemplar
 {
-  /// The bytes of a .msh with a comment of one line behind them.
+  /// The bytes of a .msh with a one-line comment appended.
   std::string
   with_comment(std::string msh, const std::string &line);
 
-  /// The comment, or the bytes without it. Throw std::runtime_error if there is none.
+  /// The comment, or the bytes without it. Both throw std::runtime_error if there is none.
   std::string
   comment_of(const std::string &msh);
   std::string

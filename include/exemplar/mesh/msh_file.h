@@ -28,11 +28,11 @@ namespace Exemplar
   {
     std::vector<std::size_t>      node_numbers; ///< the file's node numbers, in file order
     std::vector<dealii::Point<3>> nodes;        ///< coordinates [m], in file order
-    std::vector<MshElement>       elements;     ///< in file order
+    std::vector<MshElement>       elements;     ///< elements in file order
     /// (dimension, physical tag) -> name
     std::map<std::pair<int, int>, std::string> physical_names;
-    std::string note = {}; ///< for the user, on what was made of the file; empty: nothing
-    /// What stood around gmsh when it made this of a .geo ("text", "seccomp", "landlock"); nothing
+    std::string note = {}; ///< for the user, on conversions of the file; empty: none
+    /// Restrictions of gmsh when it made this of a .geo ("text", "seccomp", "landlock"); no value
     /// if it was not made of one.
     std::optional<std::vector<std::string>> geo_walls = {};
   };
@@ -49,7 +49,7 @@ namespace Exemplar
     constexpr unsigned int point                 = 15;
   } // namespace MshElementType
 
-  /// What gmsh's documentation says of an element type.
+  /// An element type in gmsh's documentation.
   struct MshElementKind
   {
     const char  *name; ///< such as "10-node tetrahedron"
@@ -57,7 +57,7 @@ namespace Exemplar
     unsigned int n_nodes;
   };
 
-  /// Types 1 to 31; nullptr for any other, which read_msh refuses.
+  /// The kind of types 1 to 31; nullptr for any other, which read_msh() refuses.
   const MshElementKind *
   find_msh_element_kind(unsigned int type);
 
@@ -68,7 +68,7 @@ namespace Exemplar
   MshFile
   read_msh(const std::filesystem::path &file);
 
-  /// The same of bytes in memory, for which `name` stands in messages.
+  /// read_msh() for bytes in memory; `name` stands for the file in messages.
   MshFile
   read_msh_bytes(std::string bytes, const std::string &name);
 
@@ -76,16 +76,16 @@ namespace Exemplar
   std::string
   msh_text(const MshFile &msh);
 
-  /// Write MSH 2.2 ASCII with 17 digits, so that reading it back gives the same
-  /// doubles. Written to a temporary name and renamed, so that no half file is left. A `comment` of one
-  /// line goes to the end, where readers pass over it.
+  /// Write MSH 2.2 ASCII with 17 digits, so that reading it back gives the same doubles. Written to
+  /// a temporary name and renamed, so that no incomplete file is left. A `comment` of one line goes
+  /// to the end, where readers skip it.
   void
   write_msh(const MshFile &msh, const std::filesystem::path &file, const std::string &comment = "");
 
-  /// What every file by write_msh() begins with.
+  /// First bytes of every file by write_msh().
   extern const std::string msh_beginning;
 
-  /// What those with this comment end in.
+  /// Last bytes of a file by write_msh() with this comment.
   std::string
   msh_end(const std::string &comment);
 } // namespace Exemplar

@@ -11,8 +11,8 @@
 
 namespace Exemplar
 {
-  /// Node number -> index. Nearly every file counts its nodes up from the first
-  /// one, so look there before searching.
+  /// Map from node numbers to indices. Nearly every file counts its nodes up from the first one, so
+  /// that position is tried before searching.
   class NodeIndex
   {
   public:

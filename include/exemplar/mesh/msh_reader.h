@@ -12,7 +12,7 @@
 
 namespace Exemplar
 {
-  /// One reading of one file, section by section.
+  /// A single reading of a file, section by section.
   class MshReader
   {
   public:
@@ -39,7 +39,7 @@ namespace Exemplar
     void
     read_elements_4();
 
-    /// A physical tag, which may be negative: refuses the int whose magnitude is none.
+    /// Check a physical tag, which may be negative: refuses the int without a magnitude.
     int
     checked_tag(int tag) const;
     void

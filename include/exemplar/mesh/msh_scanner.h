@@ -8,17 +8,16 @@
 
 namespace Exemplar
 {
-  /// Takes a .msh file apart into sections, numbers and names. It knows where it
-  /// is, so that every complaint says how far the file was good: "bar.msh: ends
-  /// within section $Nodes after 17 of 2860 nodes; ...". All reading functions
-  /// throw UserError.
+  /// Splits a .msh file into sections, numbers and names. It tracks its position, so that every
+  /// message says how far the file was valid: "bar.msh: ends within section $Nodes after 17 of 2860
+  /// nodes; ...". All reading functions throw UserError.
   class MshScanner
   {
   public:
     /// `name` stands for the file in messages.
     MshScanner(std::string bytes, const std::string &name);
 
-    /// From here on the `read_` functions read binary numbers (true) or text.
+    /// Let the `read_` functions read binary numbers (true) or text from here on.
     void
     set_binary(bool binary);
 
@@ -28,7 +27,7 @@ namespace Exemplar
       return binary;
     }
 
-    /// Go behind the white space; whether nothing else is left.
+    /// Skip white space; returns whether nothing else is left.
     bool
     at_end();
 
@@ -40,7 +39,7 @@ namespace Exemplar
     void
     end_section();
 
-    /// Go behind $EndNAME of the section begun last.
+    /// Skip to the end of $EndNAME of the section begun last.
     void
     skip_section();
 
@@ -56,40 +55,40 @@ namespace Exemplar
     std::size_t
     read_int_as_size();
 
-    /// Numbers and names that are text even in a binary file.
+    /// Numbers and names that are text also in a binary file.
     int
     text_int();
     std::size_t
     text_size();
     std::string_view
     text_word();
-    /// What stands between the first and the last quotation mark of this line.
+    /// The text between the first and the last quotation mark of this line.
     std::string
     text_quoted();
 
-    /// Binary numbers begin right behind the line break: go there.
+    /// Skip the line break, right behind which binary numbers begin.
     void
     end_line();
 
-    /// From here on `n_total` things called `what` are read, for messages.
+    /// Announce `n_total` items called `what`, for messages.
     void
     begin_count(std::size_t n_total, const std::string &what);
 
-    /// One more of them is read.
+    /// Count one more item read.
     void
     count()
     {
       ++n_done;
     }
 
-    /// Bytes not read yet, a bound for what may be allocated.
+    /// Number of bytes not yet read, a bound for allocations.
     std::size_t
     n_bytes_left() const
     {
       return bytes.size() - position;
     }
 
-    /// Throw UserError: file, section, how far; then `message`.
+    /// Throw UserError with file, section, position and then `message`.
     [[noreturn]] void
     fail(const std::string &message) const;
 

@@ -11,15 +11,15 @@
 
 namespace Exemplar
 {
-  /// The mean of the points.
+  /// The centroid of the points.
   dealii::Point<3>
   centroid(const std::vector<dealii::Point<3>> &points);
 
-  /// Whether the points lie on one line (also if they coincide), to 1e-5 of their extent.
+  /// Whether the points are collinear (also if they coincide), to 1e-5 of their extent.
   bool
   are_collinear(const std::vector<dealii::Point<3>> &points);
 
-  /// x -> to + R (x - from).
+  /// The rigid motion x -> to + R (x - from).
   struct RigidMotion
   {
     dealii::Point<3> from, to;
@@ -29,17 +29,16 @@ namespace Exemplar
     operator()(const dealii::Point<3> &x) const;
   };
 
-  /// The motion of `points` that comes nearest to `targets`, as many, in the
-  /// least-squares sense (Kabsch 1976), Eq. (15); `from` and `to` are the centroids.
-  /// Where several rotations do equally well, because either set lies on a line, it
-  /// is the smallest one: a single point does not turn.
+  /// The motion of `points` that comes nearest to `targets`, as many, in the least-squares sense
+  /// (Kabsch 1976), Eq. (15); `from` and `to` are the centroids. Where the rotation is not unique,
+  /// because either set is collinear, it is the smallest one: a single point does not rotate.
   RigidMotion
   best_rigid_motion(const std::vector<dealii::Point<3>> &points,
                     const std::vector<dealii::Point<3>> &targets);
 
-  /// A rotation by an angle [rad], from 0 to pi (to rounding), about a unit axis (0 without
-  /// a rotation). A half turn goes either way; here the first component of its axis
-  /// that is not small is positive.
+  /// A rotation by an angle [rad], from 0 to pi (to rounding), about a unit axis (0 without a
+  /// rotation). The axis of a half turn is unique up to sign; here its first component that is not
+  /// small is positive.
   struct AxisAngle
   {
     dealii::Tensor<1, 3> axis;
@@ -49,34 +48,34 @@ namespace Exemplar
   AxisAngle
   axis_and_angle(const Matrix3<double> &rotation);
 
-  /// Of the way from some points to others, as many: how it turns them if it is a rigid motion, but
-  /// for a tenth of their size; else no rotation.
+  /// The rotation from some points to as many others if this is a rigid motion up to a tenth of
+  /// their size; otherwise no rotation.
   AxisAngle
   rigid_turn(const std::vector<dealii::Point<3>> &from, const std::vector<dealii::Point<3>> &to);
 
-  /// A part of the motion: `to` on the straight way from `from`, the rotation about the
-  /// same axis by `progress` times the angle (slerp). 0 gives the identity, 1 the motion;
-  /// any other progress is allowed.
+  /// A fraction of a motion: `to` on the straight line from `from`, the rotation about the same
+  /// axis by `progress` times the angle (slerp). 0 gives the identity, 1 the motion; any other
+  /// progress is allowed.
   RigidMotion
   interpolate(const RigidMotion &motion, double progress);
 
-  /// Points on their way to targets: moved rigidly together, and what a rigid motion
-  /// leaves over added in proportion and turned along.
+  /// Interpolation of points to targets: a rigid motion, plus the remainder of the displacement,
+  /// which grows in proportion and rotates along.
   class RigidPath
   {
   public:
     RigidPath(const std::vector<dealii::Point<3>> &points,
               const std::vector<dealii::Point<3>> &targets);
 
-    /// Of a point from its start [m]: exactly 0 at progress 0; at 1 it is at its
-    /// target to rounding. Progress is extrapolated beyond.
+    /// Displacement of a point from its start [m]: exactly 0 at progress 0; at 1 the point is at
+    /// its target to rounding. Progress is extrapolated beyond.
     dealii::Tensor<1, 3>
     displacement(unsigned int point, double progress) const;
 
   private:
     RigidMotion                       motion;
     std::vector<dealii::Point<3>>     points;
-    std::vector<dealii::Tensor<1, 3>> remainders; ///< turned back
+    std::vector<dealii::Tensor<1, 3>> remainders; ///< rotated back to the start
   };
 } // namespace Exemplar
 

@@ -19,50 +19,49 @@ namespace Exemplar
   /// group NAME | map FILE.
   struct Selection
   {
-    std::string text; ///< as the scene has it; the FILE absolute
+    std::string text; ///< text of the scene, with an absolute FILE
 
     void
     declare(KeyTable &keys, const std::string &what);
 
-    /// Make the file of "nodes FILE" or "map FILE" absolute, if there is a directory to start
-    /// from; other selections stay.
+    /// The text with an absolute file of "nodes FILE" or "map FILE", if `directory` is given; other
+    /// selections are unchanged.
     static std::string
     absolute(const std::string &text, const std::filesystem::path &directory);
 
     bool
     is_boundary() const;
 
-    /// Whether it is a box or a sphere.
+    /// Whether the selection is a box or a sphere.
     bool
     is_of_space() const;
 
-    /// Of a box whose six numbers may be ranges of x, y and z instead of two corners: what to write for
-    /// either. Sentences; empty for other selections.
+    /// Advice on a box whose six numbers may be ranges of x, y and z instead of two corners: how to
+    /// write either. Sentences; empty for other selections.
     std::string
     doubt() const;
 
-    /// Whether it needs the surface of the body: who has that puts the nodes among the named ones,
-    /// by `text`.
+    /// Whether the selection needs the surface of the body: its nodes are then found elsewhere and
+    /// passed among the named ones, by `text`.
     bool
     is_of_surface() const;
 
-    /// Of "nodes FILE"; empty for other selections.
+    /// The FILE of "nodes FILE"; empty for other selections.
     std::string
     file() const;
 
-    /// Of "map FILE:ATTRIBUTE [above X | below X]", all but the first word; empty for other
+    /// All but the first word of "map FILE:ATTRIBUTE [above X | below X]"; empty for other
     /// selections.
     std::string
     map() const;
 
-    /// The selected nodes in ascending order; those of "nodes FILE" are in `named`, by
-    /// the FILE, and those of selections by the surface, by their text. `mesh` is a whole one. Throws
+    /// The selected nodes in ascending order; `named` contains those of "nodes FILE", by the FILE,
+    /// and those of selections by the surface, by their text. `mesh` is a whole one. Throws
     /// UserError, calling the selection `key`, if it is misspelt or selects nothing.
     std::vector<unsigned int>
     choose(const Mesh &mesh, const std::string &key, const NamedNodes &named = {}) const;
 
-    /// The nodes that are in `named` by the text of this selection, maybe none, or else those that
-    /// choose() finds.
+    /// The nodes in `named` by the text of this selection, maybe none, or else those of choose().
     std::vector<unsigned int>
     nodes(const Mesh &mesh, const std::string &key, const NamedNodes &named = {}) const;
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-// How a Selection is written.
+// The syntax of a Selection.
 
 namespace Exemplar
 {
@@ -19,14 +19,14 @@ namespace Exemplar
   SelectionWords
   split_selection(const std::string &text);
 
-  /// All that are allowed, for messages.
+  /// All allowed forms, for messages.
   extern const std::string selection_forms;
 
-  /// The n numbers behind the kind. Throws UserError with the remedy, calling the selection `key`.
+  /// The n numbers after the kind. Throws UserError with advice, calling the selection `key`.
   std::vector<double>
   selection_numbers(const SelectionWords &words, unsigned int n, const std::string &key);
 
-  /// What to say of a selection that is none: begins with a blank, or is empty.
+  /// Advice on an invalid selection: begins with a blank, or is empty.
   std::string
   remedy_of_selection(const SelectionWords &words);
 } // namespace Exemplar
