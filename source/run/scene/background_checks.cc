@@ -2,7 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/run/scene/scene_parameters.h>
 
-// What a neo-Hookean background asks of the other sections of a scene.
+// Settings that a neo-Hookean background requires in other sections of a scene.
 
 namespace Exemplar
 {

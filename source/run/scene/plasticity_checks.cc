@@ -3,7 +3,7 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/run/scene/scene_parameters.h>
 
-// What cells that yield ask of the other sections of a scene.
+// Settings that cells with a yield stress require in other sections of a scene.
 
 namespace Exemplar
 {
