@@ -115,7 +115,7 @@ namespace Exemplar
       std::optional<unsigned int>
       find(const dealii::Point<3> &point) const
       {
-        for (unsigned int corner = 0; corner < 8; ++corner) // it may lie in the next box
+        for (unsigned int corner = 0; corner < 8; ++corner) // also look in adjacent boxes
         {
           const auto found = indices.find(box_of(point, 0.5, corner));
           if (found != indices.end())

@@ -91,7 +91,7 @@ namespace Exemplar::Verification
       for (const unsigned int dof : p.constraints.free_dofs.list())
         direction[dof] = normal(generator);
       auto exact = solution.positions;
-      newton_step(p, exact, solution.weights); // to rounding
+      newton_step(p, exact, solution.weights); // exact to rounding
       const auto error_left = [&](const double error)
       {
         auto x = exact;

@@ -128,7 +128,7 @@ namespace Exemplar
       }
     }
 
-    /// Number the nodes; those that several processes share are owned by each of them in turn.
+    /// Number the nodes. Owners of shared nodes are chosen among their processes in turn.
     void
     number_nodes(const std::size_t n_nodes, std::vector<PartOfBody> &parts)
     {

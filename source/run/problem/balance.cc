@@ -240,8 +240,8 @@ namespace Exemplar
         return stands_beside_examples(factor);
       }
 
-      /// For a small weight w_i > 0 the energy grows by S_ii w_i^2 / 2 with the Schur complement S,
-      /// Eq. (11), which must be above rounding; else the body slides towards the example.
+      /// A small weight w_i > 0 changes the energy by S_ii w_i^2 / 2 with the Schur complement S,
+      /// Eq. (11). If S_ii < 0 beyond rounding, the body slides towards the example.
       bool
       stands_beside_examples(const double factor)
       {

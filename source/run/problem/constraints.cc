@@ -14,7 +14,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// Those degrees of freedom of the whole body that this process has, in its numbers.
+    /// Degrees of freedom of the whole body that this process has, in its own numbering.
     std::vector<unsigned int>
     dofs_here(const Exchange &exchange, const std::vector<unsigned int> &in_whole)
     {

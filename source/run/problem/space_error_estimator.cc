@@ -161,7 +161,7 @@ namespace Exemplar
     Vector     moves; ///< displacements from there [m]
     State      to;
     Evaluation at;        ///< the present state, with the forces that stay
-    Vector     forces;    ///< what is added to all gradients [N]
+    Vector     forces;    ///< added to all gradients [N]
     double     work = 0.; ///< of loads and inertia along the moves [J]
   };
 
@@ -261,7 +261,8 @@ namespace Exemplar
       if (has_energy && !(decrease >= -1e-4 * length * slope))
         continue;
       correction = std::move(trial);
-      // where the potential is not the parabola that the tangent knows, a further step tells more
+      // where the potential is not quadratic, as the tangent assumes, a further step improves the
+      // estimate
       const double expected = -length * (1. - 0.5 * length) * slope;
       return has_energy
              && std::abs(decrease - expected) > 1e-3 * correction.at.elastic.energy_elastic;
@@ -299,7 +300,7 @@ namespace Exemplar
       Vector           u          = displacement(*quadratic, correction.from.positions);
       u += correction.moves;
       const ElasticEvaluation &corrected = correction.at.elastic;
-      // what rounding leaves of a body at rest is no error
+      // corrections below the rounding of a body at rest are no error
       const double length
           = 1e-10 * problem.body.mesh.diameter() * std::sqrt(fe_space.total_volume());
       const double energy = 1e-20 * unit_energy(fe_space, problem.body.material);

@@ -157,7 +157,7 @@ namespace Exemplar
       set_interpolation(assignments);
     const auto is_overridden = [&](const std::string &key)
     { return !text.empty() && find_assignment(overrides, key) != nullptr; };
-    if (!is_overridden("Scene") && !is_overridden("Mesh/Generator")) // else ignored keys stay
+    if (!is_overridden("Scene") && !is_overridden("Mesh/Generator")) // else ignored keys are fine
       complete->warnings = warn_of_ignored_keys(*complete, keys, assignments);
     for (const std::string &double_warning : warnings_of_doubles(overrides))
       warnings.push_back(double_warning);

@@ -27,7 +27,7 @@ namespace Exemplar
     if (const std::optional<CellLaw> law = material.law_of_grain(); law)
       model.strain = law_of_grain(*law);
     model.complete();
-    // with a stronger ridge, only the ridge would move the rest pose
+    // else the ridge alone would move the balanced rest pose
     if (loads.balanced && examples.weights == WeightRule::simplex
         && examples.weight_penalty == "auto")
       examples.weight_penalty = "weak";

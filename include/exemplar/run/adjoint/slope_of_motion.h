@@ -12,10 +12,10 @@ namespace Exemplar
   /// Derivatives of the slope of a step by the data of dynamic scenes alone, at fixed a and b.
   struct MotionDerivatives
   {
-    Vector by_base;            ///< by x_star of the inertia, by degree of freedom
-    Vector by_base_velocities; ///< by v_star
-    /// By the earlier positions of TimeIntegrator::history() in the strains of damping; empty
-    /// without it.
+    Vector by_base;            ///< derivative by x_star of the inertia
+    Vector by_base_velocities; ///< derivative by v_star
+    /// Derivatives by the earlier positions of TimeIntegrator::history() in the strains of damping;
+    /// empty without it.
     std::vector<Vector> by_past;
     double              by_mass_damping = 0., by_stiffness_damping = 0.;
   };

@@ -26,8 +26,8 @@ namespace Exemplar
     /// Gradients by data constant in time; handles by a displacement that is constant in time. Its
     /// weakly_active is empty.
     Gradients all;
-    /// By the positions of held nodes at the end of each step, three components a node, in the
-    /// order of held_nodes.
+    /// Gradients by the positions of held nodes at the end of each step, three components a node,
+    /// in the order of held_nodes.
     std::vector<std::vector<double>> handles;
     std::vector<unsigned int>        held_nodes;
     std::optional<double> mass_damping, stiffness_damping; ///< in dynamic scenes, like the next two

@@ -29,7 +29,7 @@ namespace Exemplar
     double       worst_residual = 0.;
     PhaseSeconds seconds{};
 
-    // by these, a state is recognised as one of this run
+    // history of scenes, which tells whether a state is one of this run
     std::string            first_scene; ///< digest_of() the scene with which the run began
     std::vector<SceneEdit> edits;       ///< in order
   };

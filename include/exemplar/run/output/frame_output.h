@@ -88,7 +88,7 @@ namespace Exemplar
     void
     write_shapes_of(const Shown &shown) const;
 
-    /// How far nodes have moved in the pose of weight i [m].
+    /// Displacements of the nodes from rest in the pose of weight i [m].
     Vector
     displacement_of_weight(unsigned int i) const;
 

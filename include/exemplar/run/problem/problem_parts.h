@@ -45,15 +45,15 @@ namespace Exemplar
     follow_material();
 
     const Mesh    mesh;
-    Material      material; ///< with own elasticity of examples, C' of Eq. (38)
+    Material      material; ///< C, or C' of Eq. (38)
     const FESpace fe_space;
     Patches       patches;       ///< regions of one mean dilatation; none: by cell
-    Material      cell_material; ///< in the cells' own energy
+    Material      cell_material; ///< for the cells' own energy
     /// Report on mesh and poses made of surfaces; null if none were.
     const std::shared_ptr<const MadeOfSurfaces> made;
     /// Walls around gmsh's geometry, see MshFile::geo_walls.
     const std::optional<std::vector<std::string>> geo_walls;
-    const std::vector<std::string>                warnings; ///< of meshing
+    const std::vector<std::string>                warnings; ///< of reading off the surface
     const std::shared_ptr<const SurfaceMesh>      surface;  ///< null unless it is needed
     const std::vector<CarriedSurface>             carried;  ///< of Mesh/Carry
     const std::shared_ptr<const Inputs> inputs; ///< null unless Output/Space error needs them
