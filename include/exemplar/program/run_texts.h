@@ -11,7 +11,7 @@
 
 namespace Exemplar
 {
-  /// The step and file from which a run continues.
+  /// The step after which a run continues, and whether any steps are left.
   std::string
   resumption_text(const Problem &problem);
 

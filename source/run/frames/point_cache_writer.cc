@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Formats: the readers of Blender's Mesh Cache modifier, MOD_meshcache_mdd.c and MOD_meshcache_pc2.c, which go
-// back to NewTek's MDD and to 3ds Max's Point Cache 2.
+// Formats: the readers of Blender's Mesh Cache modifier, MOD_meshcache_mdd.c and
+// MOD_meshcache_pc2.c, which go back to NewTek's MDD and to 3ds Max's Point Cache 2.
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/run/frames/frame_formats.h>
 #include <exemplar/run/frames/frame_writer.h>

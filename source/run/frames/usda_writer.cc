@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Format: OpenUSD, "USDA file format" and the schemas UsdGeomMesh, UsdGeomSubset and UsdGeomPrimvar.
+// Format: OpenUSD, "USDA file format" and schemas UsdGeomMesh, UsdGeomSubset and UsdGeomPrimvar.
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/run/frames/frame_formats.h>

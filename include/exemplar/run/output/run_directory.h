@@ -83,7 +83,7 @@ namespace Exemplar
     std::vector<unsigned int>
     kept_states() const;
 
-    /// Copy the scene and the statistics of the steps so far to original_N.prm, parameters_N.prm and
+    /// Copy the scene and the statistics so far to original_N.prm, parameters_N.prm and
     /// statistics_N.csv with the first free number N; returns the name of the scene's copy.
     std::string
     keep_earlier_scene() const;

@@ -30,7 +30,8 @@ namespace Exemplar
     /// it.
     Problem(const CompleteScene &scene, BodyInputs given, StepClock clock = StepClock(Phase::read));
 
-    /// Solve the scene's next step from `state`, which is replaced if the solve succeeds; see next_step().
+    /// Solve the scene's next step from `state` and replace that if the solve succeeds; see
+    /// next_step().
     SolveReport
     advance();
 

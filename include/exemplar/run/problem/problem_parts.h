@@ -62,7 +62,7 @@ namespace Exemplar
   /// The constraints of the body, and its free degrees of freedom.
   struct Constraints
   {
-    /// Throws UserError for invalid handles, and for handles that hold all nodes.
+    /// Throws UserError for invalid handles, and if all degrees of freedom are held.
     Constraints(const SceneParameters &parameters,
                 const Body            &body,
                 const TimeAxis        &axis,
@@ -74,8 +74,8 @@ namespace Exemplar
     check(const SceneParameters &parameters, const Body &body, const TimeAxis &axis);
 
     /// Let `change` alter which nodes handles hold. Throws UserError, with nothing changed, if that
-    /// holds all nodes or, in statics, leaves the body free to move rigidly. All processes must
-    /// call this.
+    /// holds all degrees of freedom or, in statics, leaves the body free to move rigidly. All
+    /// processes must call this.
     void
     change_handles(const std::function<void(Handles &)> &change,
                    const SceneParameters                &parameters,

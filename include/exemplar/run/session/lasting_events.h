@@ -11,7 +11,7 @@
 namespace Exemplar
 {
   /// The shortest list of events with the same outcome as those of a session, the steps between
-  /// them left out: up to three for each spring, handle or number. In half an hour a hand moves
+  /// them left out: at most two for each spring, handle or number. In half an hour a hand moves
   /// some springs 60,000 times.
   class LastingEvents
   {
