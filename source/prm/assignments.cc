@@ -13,13 +13,13 @@
 #include <regex>
 #include <sstream>
 
-// Scene files as text: what is assigned where.
+// Parser of scene files, down to assignments.
 
 namespace Exemplar
 {
   namespace
   {
-    /// Runs of blanks within a name count as one.
+    /// The text with runs of blanks replaced by one.
     std::string
     single_blanks(const std::string &text)
     {
@@ -30,7 +30,7 @@ namespace Exemplar
       return result;
     }
 
-    /// What to say of a text that values cannot be made of; empty if there is nothing to say.
+    /// Sentence on bytes that no value may contain; empty if there are none.
     std::string
     what_is_no_text(const std::string &text)
     {
@@ -50,7 +50,7 @@ namespace Exemplar
                  || std::isspace(static_cast<unsigned char>(line[word.size()])));
     }
 
-    /// What to say of a line that is none: how it is probably meant.
+    /// Remedy for a line that cannot be parsed: its likely meaning.
     std::string
     remedy_of_line(const std::string &line)
     {
@@ -62,7 +62,7 @@ namespace Exemplar
       static const std::regex python("(import|from|def|class|print)\\b.*");
       static const std::regex continued("[^=:]*[;,]|[-+.0-9(].*");
       std::smatch             parts;
-      if (line.size() > 200) // no line of a person, and too much for regular expressions
+      if (line.size() > 200) // not hand-written, too long for regular expressions
         return "";
       if (std::regex_match(line, parts, word))
         return parts[1] == "end" ? " Write 'end' alone."
@@ -97,7 +97,7 @@ namespace Exemplar
       return "";
     }
 
-    /// Reads the text of a .prm line by line and keeps track of the subsection it is in.
+    /// Reads the text of a .prm line by line and keeps track of the current subsection.
     class AssignmentReader
     {
     public:
@@ -109,7 +109,7 @@ namespace Exemplar
       std::vector<Assignment>
       read(const std::string &text)
       {
-        const std::string  mark = "\xEF\xBB\xBF"; // that editors put before UTF-8
+        const std::string  mark = "\xEF\xBB\xBF"; // byte-order mark of UTF-8
         std::istringstream in(text.compare(0, mark.size(), mark) == 0 ? text.substr(mark.size())
                                                                       : text);
         if (text.compare(0, 2, "\xFF\xFE") == 0 || text.compare(0, 2, "\xFE\xFF") == 0)
@@ -182,7 +182,7 @@ namespace Exemplar
                             + "' and within it 'subsection " + name.substr(name.find('/') + 1)
                             + "', each closed by a line 'end'."
                       : "A name has letters, digits, blanks, - and _, but no /."));
-        // in files without indentation only the names tell
+        // without indentation, only names tell where a subsection lacks its end
         const bool is_outer = sections.count(name) > 0 || (!open.empty() && subsections[0] == name);
         if (!open.empty()
             && (indentation < open.back().indentation
@@ -203,7 +203,7 @@ namespace Exemplar
         open.pop_back();
       }
 
-      /// Note that the innermost subsection should have been closed before this line.
+      /// Record that the innermost subsection should probably have been closed before this line.
       void
       suspect(const std::string &what)
       {
@@ -241,19 +241,19 @@ namespace Exemplar
         assignments.push_back(std::move(assignment));
       }
 
-      /// Where a subsection that is open began.
+      /// The first line of an open subsection.
       struct Beginning
       {
         unsigned int line;
-        std::size_t  indentation; ///< blanks before the line
+        std::size_t  indentation; ///< number of leading blanks
       };
 
       const std::string                  file;
       const std::set<std::string>        sections;
       unsigned int                       line_number = 0;
-      std::size_t                        indentation = 0; ///< of the present line
+      std::size_t                        indentation = 0; ///< of the current line
       std::vector<Beginning>             open;            ///< of each of `subsections`
-      std::string                        unclosed; ///< the first that looks as if it lacked its end
+      std::string                        unclosed; ///< the first that seems to lack its end
       unsigned int                       unclosed_line = 0;
       std::string                        pending; ///< lines that ended in a backslash
       std::vector<std::string>           subsections;
@@ -328,6 +328,6 @@ namespace Exemplar
   }
   catch (const UserError &)
   {
-    return false; // who reads it as a scene knows the sections, and says more
+    return false; // reported later by a reader that knows the sections
   }
 } // namespace Exemplar

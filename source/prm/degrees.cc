@@ -7,10 +7,11 @@ namespace Exemplar
 {
   namespace
   {
-    /// Of what people write; to look into all nested calls of a program's text would take long.
+    /// Greatest length of formulas that people write; nested calls in longer texts would take long
+    /// to search.
     constexpr std::size_t longest_by_hand = 2000;
 
-    /// What stands between the parenthesis that opens at `begin` and the one that closes it.
+    /// The text between the parenthesis at `begin` and its closing one.
     std::string
     in_parentheses(const std::string &text, const std::size_t begin)
     {

@@ -16,14 +16,14 @@ namespace Exemplar
 {
   namespace
   {
-    // muParser differs between versions in what `log` means
+    // muParser's versions differ in the base of `log`
     double
     natural_logarithm(const double x)
     {
       return std::log(x);
     }
 
-    /// muParser would take "t = 1" for an assignment to t.
+    /// Throws UserError for "t = 1", which muParser would parse as an assignment to t.
     void
     check_no_assignment(const std::string &key, const std::string &text)
     {
@@ -33,7 +33,7 @@ namespace Exemplar
                         + "' holds a single '='. Write == to compare.");
     }
 
-    /// Whether a comma stands outside of all parentheses, where functions have none.
+    /// Whether a comma stands outside all parentheses, where it separates no arguments.
     bool
     has_outer_comma(const std::string &text)
     {
@@ -47,7 +47,7 @@ namespace Exemplar
       return false;
     }
 
-    /// muParser would take what is behind the last comma and leave out the rest.
+    /// Throws UserError for such a comma: muParser would drop the text before it.
     void
     check_no_outer_comma(const std::string &key, const std::string &text)
     {
@@ -57,7 +57,7 @@ namespace Exemplar
                           "are separated by ';'.");
     }
 
-    /// What to say of a wrong number of formulas.
+    /// Remedy for a wrong number of formulas.
     std::string
     remedy_of_number(const std::vector<std::string> &texts,
                      const unsigned int              n_components,
@@ -80,7 +80,7 @@ namespace Exemplar
       return "";
     }
 
-    /// What to say of a formula in the manner of other languages.
+    /// Remedy for a formula in the syntax of other languages.
     std::string
     remedy_of_formula(const std::string &text)
     {
@@ -110,7 +110,7 @@ namespace Exemplar
       return "";
     }
 
-    /// Of an empty formula, which shows nothing of where it stands.
+    /// Place of an empty formula among several, for messages; empty for other formulas.
     std::string
     place_among(const unsigned int i, const std::string &all, const unsigned int n)
     {
@@ -136,7 +136,7 @@ namespace Exemplar
   {
     std::string              key;
     std::vector<std::string> texts;
-    std::array<double, 4>    variables{}; // x, y, z, t, as the parsers see them
+    std::array<double, 4>    variables{}; // x, y, z, t, as bound to the parsers
     std::vector<mu::Parser>  parsers;
   };
 

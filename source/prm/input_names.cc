@@ -8,7 +8,8 @@ namespace Exemplar
 {
   namespace
   {
-    /// Refused if it holds one of the signs in `unwanted`, or what is no text.
+    /// The absolute name of one file. Throws UserError for characters in `unwanted` or unprintable
+    /// ones.
     std::string
     absolute_file(const std::string           &file,
                   const std::filesystem::path &directory,

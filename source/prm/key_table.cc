@@ -68,7 +68,7 @@ namespace Exemplar
   {
     declared.subsections = subsections;
     declared.value       = declared.default_value;
-    // after the last key of the present subsection, or else of the one around it
+    // insert after the last key of the present subsection, or else of the enclosing one
     std::size_t position = entries.size(), depth = 0;
     for (std::size_t i = 0; i < entries.size(); ++i)
     {
@@ -276,7 +276,7 @@ namespace Exemplar
       const std::string value = key.is_input_file
                                     ? absolute_files(assignment.value, key.is_list, directory)
                                     : assignment.value;
-      if (!entries[index].set(value)) // a remedy may be tried on the variable: nobody reads it now
+      if (!entries[index].set(value)) // remedies may overwrite the variable, no longer used
         throw UserError(assignment.place + ": " + key.path() + " = '" + value
                         + "' is not allowed. Allowed: " + key.allowed + ". Default: '"
                         + key.default_value + "'."

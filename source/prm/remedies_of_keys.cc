@@ -46,7 +46,7 @@ namespace Exemplar
 
     constexpr std::size_t far = std::numeric_limits<std::size_t>::max();
 
-    /// How far what was written for a key is from its name; `far` if it was not meant.
+    /// Edit distance of a written key to a declared one; `far` if it is too great.
     std::size_t
     name_distance(const std::string &written, const DeclaredKey &key)
     {
@@ -68,14 +68,14 @@ namespace Exemplar
       return names;
     }
 
-    /// Whether a key is of another outermost section.
+    /// Whether a key is in another outermost section.
     bool
     is_outside(const std::string &section, const DeclaredKey &key)
     {
       return section.substr(0, section.find('/')) != key.subsections[0];
     }
 
-    /// The keys that are nearest: by their names first, then by their sections.
+    /// The nearest keys: by names first, then by sections.
     std::vector<std::string>
     nearest_keys(const Path &written, const std::vector<DeclaredKey> &keys)
     {
@@ -89,8 +89,8 @@ namespace Exemplar
         if (distance == far
             || ((distance > 0 || is_of_others) && section != written.section
                 && !keys_of(written.section, keys).empty()))
-          continue;            // who names another section means a key of it
-        const std::size_t cost // names of sections have less than 100 letters
+          continue;            // another section means a key of that section
+        const std::size_t cost // section names have fewer than 100 letters
             = 100 * distance
               + (written.section.empty() ? 0 : edit_distance(written.section, section));
         if (cost < minimum)
@@ -125,7 +125,7 @@ namespace Exemplar
                 const std::string              &option_value)
   {
     const std::string usual_remedy = "exemplar --print-parameters lists them all.";
-    if (path.size() > 200) // no key of a person, and too much for regular expressions
+    if (path.size() > 200) // not hand-written, too long for regular expressions
       return usual_remedy;
     if (letters_of(path) == "threads" || letters_of(path) == "nthreads")
       return "The number of threads is given by --threads, behind the scene.";

@@ -16,7 +16,7 @@ namespace Exemplar
 {
   namespace
   {
-    // What common mistakes become when they are undone.
+    // Corrections of common mistakes.
 
     std::string
     replaced(const std::string &text, const std::string &pattern, const std::string &by)
@@ -24,7 +24,7 @@ namespace Exemplar
       return std::regex_replace(text, std::regex(pattern), by);
     }
 
-    /// The names that a key allows, if it is a choice of them.
+    /// The allowed names of a key; empty if it is no choice.
     std::vector<std::string>
     choices_of(const DeclaredKey &key)
     {
@@ -34,7 +34,7 @@ namespace Exemplar
       return split_trimmed(std::regex_replace(key.allowed, list, "$1"), ',');
     }
 
-    /// The names nearest to those that a value gives; empty if one of them is far from all.
+    /// The allowed names nearest to those in a value; empty if one has no near one.
     std::string
     nearest_choices(const DeclaredKey &key, const std::string &value)
     {
@@ -43,7 +43,7 @@ namespace Exemplar
       for (const std::string &word : split_trimmed(value, ','))
       {
         std::string nearest = nearest_word(word, choices);
-        for (const std::string &choice : choices) // Newton-Raphson
+        for (const std::string &choice : choices) // as in Newton-Raphson
           if (nearest.empty() && letters_of(word).find(letters_of(choice)) != std::string::npos)
             nearest = choice;
         if (nearest.empty())
@@ -62,7 +62,7 @@ namespace Exemplar
                                                             : "";
     }
 
-    /// As a person writes it: rounding errors of a product are left out.
+    /// The number as a person would write it, without rounding errors of a product.
     std::string
     written(const double number)
     {
@@ -70,7 +70,7 @@ namespace Exemplar
       return replaced(shortest_text(parse_number(digits)), "e\\+0*", "e");
     }
 
-    /// The share of one that a percentage is; empty for other texts.
+    /// The fraction for a percentage; empty for other texts.
     std::string
     share(const std::string &value)
     {
@@ -78,7 +78,7 @@ namespace Exemplar
       return value.back() == '%' || percent >= 2. ? shortest_text(percent / 100.) : "";
     }
 
-    /// The number that a formula without variables gives; empty for other texts.
+    /// The value of a formula without variables; empty for other texts.
     std::string
     computed(const std::string &value)
     {
@@ -107,7 +107,7 @@ namespace Exemplar
             { "g/cm3", "kg/m^3", 1e3 }, { "m/s2", "m/s^2", 1. }, { "g", "m/s^2", 9.81 },
             { "J", "J", 1. },           { "J/m3", "J/m^3", 1. } };
 
-    /// The unit of a key's number, by its documentation.
+    /// The unit of a key's number, from its documentation.
     std::string
     unit_of(const DeclaredKey &key)
     {
@@ -116,7 +116,7 @@ namespace Exemplar
       return std::regex_search(key.documentation, found, bracket) ? found.str(1) : "";
     }
 
-    /// Numbers with units, in the unit of a key; empty for other texts.
+    /// Numbers with units, converted to the unit of a key; empty for other texts.
     std::string
     without_units(const DeclaredKey &key, const std::string &value)
     {
@@ -139,7 +139,7 @@ namespace Exemplar
       return numbers;
     }
 
-    /// 1e3 is an integer, too.
+    /// A number such as 1e3 as an integer; empty for other texts.
     std::string
     whole(const std::string &value)
     {
@@ -199,11 +199,11 @@ namespace Exemplar
     {
       std::size_t end = text.find(". ");
       while (end < text.size() - 2 && std::isupper(static_cast<unsigned char>(text[end + 2])) == 0)
-        end = text.find(". ", end + 1); // such as behind "e.g."
+        end = text.find(". ", end + 1); // such as after "e.g."
       return end == std::string::npos ? text : text.substr(0, end + 1);
     }
 
-    /// What a key means: the first sentence of its documentation.
+    /// The meaning of a key: the first sentence of its documentation.
     std::string
     meaning(const DeclaredKey &key, const std::string &value)
     {

@@ -25,7 +25,7 @@ namespace Exemplar
       return names;
     }
 
-    /// How a command is called.
+    /// Usage line of a command.
     std::string
     usage(const std::string &command)
     {
@@ -40,15 +40,15 @@ namespace Exemplar
       return command.empty() ? "exemplar SCENE.prm" : "exemplar " + command;
     }
 
-    /// The words of a command line, each as what it is.
+    /// The words of a command line, classified.
     struct Sorted
     {
-      std::string command;              ///< empty: a scene is run
+      std::string command;              ///< empty: run of a scene
       Words       unknown;              ///< options that the command does not have
-      Words       positional;           ///< what belongs to no option
-      Words       options;              ///< those that the command has
-      bool        late_command = false; ///< the command does not stand first
-      bool        split_set    = false; ///< a --set has no '=': a blank has divided it
+      Words       positional;           ///< words that belong to no option
+      Words       options;              ///< known options
+      bool        late_command = false; ///< the command is not the first word
+      bool        split_set    = false; ///< a --set has no '=', as a blank has split it
     };
 
     bool
@@ -116,16 +116,16 @@ namespace Exemplar
     suggested_option(const std::string &unknown, const Words &options)
     {
       const std::string beginning = unknown.substr(unknown.find_first_not_of('-'));
-      for (const std::string &option : options) // -o or --out for --output
+      for (const std::string &option : options) // such as -o or --out for --output
         if (option.compare(2, beginning.size(), beginning) == 0)
           return option;
       return nearest_word(unknown, options);
     }
 
-    /// What is to be done instead of giving a command an option that others have, or that it could have.
+    /// What to do instead of giving a command an option of another command.
     struct Remedy
     {
-      std::string command; ///< empty: a scene is run
+      std::string command; ///< empty: run of a scene
       std::string option;
       std::string words;
     };
@@ -149,7 +149,7 @@ namespace Exemplar
       { "", "--cells", "The number of cells is given by --set Mesh/Cells=N." },
     };
 
-    /// Empty if there is none. In its words {} is the file that the command was given.
+    /// Remedy for an option, with {} replaced by the command's file; empty if there is none.
     std::string
     remedy_of(const std::string &option, const Sorted &line)
     {
@@ -177,12 +177,12 @@ namespace Exemplar
       return message;
     }
 
-    /// What to say if the first word is neither a scene nor a command; empty if it is one.
+    /// Message if the first word is neither a scene nor a command; empty otherwise.
     std::string
     unknown_command(const Sorted &line, const Words &commands)
     {
       const std::string first = line.positional.empty() ? "" : line.positional[0];
-      std::error_code   ignored; // a name may be too long for a file
+      std::error_code   ignored; // the name may be too long for a file
       if (!line.command.empty() || first.empty() || first.find('.') != std::string::npos
           || std::filesystem::exists(first, ignored))
         return "";
@@ -200,7 +200,7 @@ namespace Exemplar
       return extension == ".msh" || extension == ".geo" || is_surface_file(file.string());
     }
 
-    /// Of two words where one scene should be.
+    /// Message on a second word where one scene is expected.
     std::string
     second_scene(const Sorted &line)
     {
@@ -247,7 +247,7 @@ namespace Exemplar
                     : "");
     }
 
-    /// CLI11's words, where they are not those of this program.
+    /// CLI11's messages, rephrased where needed.
     std::string
     in_own_words(const CLI::ParseError &error, const Sorted &line)
     {

@@ -29,7 +29,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// What the command line can say.
+    /// All arguments of the command line.
     struct Arguments
     {
       RunOptions  run;
@@ -47,7 +47,7 @@ namespace Exemplar
       PageOptions        page;
     };
 
-    /// What --help ends with.
+    /// The last part of --help.
     std::string
     footer(const std::string &example)
     {
@@ -94,7 +94,7 @@ Exit status:
                    "every parameter, its default, range and meaning");
     }
 
-    /// A command with options of its own, and none of those of scenes.
+    /// Add a command with its own options and none of those of scenes.
     CLI::App &
     add_command(CLI::App          &app,
                 const std::string &name,
@@ -208,8 +208,8 @@ Exit status:
       return status;
     }
 
-    /// Runs in copies of this process, which has begun nothing so far. mpirun would take them for
-    /// processes of its own.
+    /// Make a study whose runs are forked copies of this process, which has not started any library
+    /// yet. Under mpirun there are no copies, which it would take for its own processes.
     void
     make_study(StudyOptions options)
     {
@@ -218,7 +218,7 @@ Exit status:
       ProgramServer server(
           [](const int argc, char *argv[])
           {
-            const MpiSession mpi; // that of main() does not end in a copy
+            const MpiSession mpi; // a copy does not reach the end of main()'s
             return run_program(argc, argv);
           });
       options.run_program
@@ -237,7 +237,7 @@ Exit status:
       require_printed();
     }
 
-    /// What is neither a run of a scene nor verify is done by one process.
+    /// Throws UserError for commands that several processes cannot execute together.
     void
     refuse_processes(const std::string &command)
     {
@@ -275,7 +275,7 @@ Exit status:
     if (argc > 1 && std::string(argv[1]) == "live")
       become_live_program(argv);
     Arguments arguments;
-    // each of several processes has one core
+    // each of several processes uses one core
     arguments.run.n_threads  = JointRun::group().n_processes > 1 ? 1 : n_free_cores();
     arguments.pose.n_threads = arguments.run.n_threads;
     arguments.study.stop     = is_interrupted;

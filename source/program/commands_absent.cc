@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands for commands that ./demo.sh does not build, and what they say.
+// Stubs of commands that ./demo.sh does not build, with their messages.
 #include <exemplar/base/errors.h>
 #include <exemplar/base/whole_program.h>
 #include <exemplar/program/mesh_command.h>

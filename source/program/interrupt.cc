@@ -11,25 +11,25 @@ namespace Exemplar
 {
   namespace
   {
-    // a signal may come to any thread
+    // atomic, as a signal may arrive in any thread
     std::atomic<bool> noting{ false }, interrupted{ false }, speaking{ true };
     static_assert(std::atomic<bool>::is_always_lock_free, "as signal handlers need it");
 
     constexpr int signals[] = { SIGINT, SIGTERM, SIGXCPU, SIGHUP };
 
-    /// A signal handler: nothing but system calls is safe.
+    /// Exit from a signal handler, where only system calls are safe.
     [[noreturn]] void
     end_with(const char *message)
     {
       if (speaking && write(STDERR_FILENO, message, std::strlen(message)) < 0)
-        _exit(130); // nobody listens, which changes nothing
+        _exit(130); // no reader; exit all the same
       _exit(130);
     }
 
     void
     take_interrupt(const int signal)
     {
-      // METIS, which has a use of its own for SIGTERM, leaves behind a handler that serves once
+      // re-install: METIS uses SIGTERM itself and leaves a one-shot handler behind
       std::signal(signal, take_interrupt);
       if (!noting)
         end_with("exemplar: Interrupted before a run had begun.\n");
@@ -52,7 +52,7 @@ namespace Exemplar
       if (signal == SIGHUP && before == SIG_IGN)
         std::signal(SIGHUP, SIG_IGN);
     }
-    // those that came while the program was started anew have waited
+    // unblock signals that were blocked while the program restarted itself
     pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
   }
 

@@ -26,19 +26,18 @@ namespace Exemplar
   namespace
   {
     ProcessGroup together;
-    MPI_Comm     ending = MPI_COMM_NULL; ///< by which those that have joined end together
+    MPI_Comm     ending = MPI_COMM_NULL; ///< for the common end of all joined processes
 
-    /// How long a process that has failed waits for the others to fail, too [s].
+    /// Time in which other processes may fail as well before all are aborted [s].
     constexpr double time_to_fail = 2.;
 
-    /// How long those that fail alone wait for word of others that do [s].
+    /// Time in which processes that fail alone learn of others that do [s].
     constexpr double time_to_speak = 0.2;
 
-    /// How long processes may take to find each other [s]. One that is another program lets them wait
-    /// for ever.
+    /// Time for processes to connect [s]. A process of another program would block them forever.
     constexpr unsigned int time_to_join = 120;
 
-    /// Look every millisecond whether something is so, for `limit` seconds.
+    /// Poll a condition every millisecond for `limit` seconds; returns whether it has become true.
     bool
     comes_true(const std::function<bool()> &condition, const double limit)
     {
@@ -53,8 +52,8 @@ namespace Exemplar
       return true;
     }
 
-    /// Whether all processes call this for `communicator` within `limit` seconds. If not, nothing
-    /// but the end of the program can follow.
+    /// Whether all processes call this for `communicator` within `limit` seconds. If not, the
+    /// program must end.
     bool
     all_come(MPI_Comm communicator, const double limit)
     {
@@ -70,7 +69,7 @@ namespace Exemplar
           limit);
     }
 
-    /// The least of the processes that say `it_is_me`; the number of processes if none does.
+    /// The lowest rank with `it_is_me`; the number of processes if there is none.
     unsigned int
     first_of(const bool it_is_me)
     {
@@ -79,8 +78,8 @@ namespace Exemplar
       return first;
     }
 
-    /// Whether a process before this one fails alone, too; all that do so within time_to_speak
-    /// find the same one that nobody is before.
+    /// Whether a process of lower rank fails alone, too; of all that do so within time_to_speak,
+    /// exactly one gets false.
     bool
     is_another_before()
     {
@@ -98,7 +97,7 @@ namespace Exemplar
           time_to_speak);
     }
 
-    /// What follows the message of a process.
+    /// The place of a process, to be appended to its message.
     std::string
     place()
     {
@@ -111,21 +110,21 @@ namespace Exemplar
                          std::string(name, length));
     }
 
-    /// End all processes, as if each had returned `status`. Other than after MPI_Finalize, mpirun does
-    /// not add to our message eleven lines of its own.
+    /// Abort all processes with this status. Unlike after MPI_Finalize, mpirun adds no message of
+    /// its own.
     [[noreturn]] void
     end_all(const int status)
     {
-      // what Open MPI would say of MPI_Abort
+      // suppresses Open MPI's message on MPI_Abort
       if (void *quiet = dlsym(RTLD_DEFAULT, "orte_execute_quiet"))
         *static_cast<bool *>(quiet) = true;
       MPI_Abort(ending, status);
       _exit(status);
     }
 
-    bool has_joined = false; ///< and not yet come to its end
+    bool has_joined = false; ///< joined, and not yet in end()
 
-    /// As end_all() by the one process of mpirun -n 1, which runs without MPI.
+    /// End the single process of mpirun -n 1, which runs without MPI, as end_all() does.
     [[noreturn]] void
     end_alone(const int status)
     {
@@ -135,7 +134,8 @@ namespace Exemplar
       end_all(status);
     }
 
-    /// Libraries end the program where they find no memory. What runs then ends the others, who would wait.
+    /// atexit handler, for libraries that exit if out of memory: abort the other ranks, which would
+    /// hang.
     void
     tell_of_exit()
     {
@@ -144,7 +144,7 @@ namespace Exemplar
       const char message[] = "exemplar: A library that exemplar uses has ended the program, most "
                              "often for want of memory. Take more machines, or a coarser mesh.\n";
       if (write(STDERR_FILENO, message, sizeof(message) - 1) < 0)
-        end_all(2); // nobody listens, which changes nothing
+        end_all(2); // no reader; end all the same
       end_all(2);
     }
 
@@ -154,7 +154,7 @@ namespace Exemplar
       _exit(130);
     }
 
-    /// SHA-256 of the program that this process runs.
+    /// SHA-256 of the executable of this process.
     std::string
     digest_of_program()
     {
@@ -162,14 +162,14 @@ namespace Exemplar
       {
         return sha256("/proc/self/exe");
       }
-      catch (const UserError &) // no /proc, or no right to read the file
+      catch (const UserError &) // no /proc, or no permission
       {
         return "";
       }
     }
 
-    /// Refuse processes that cannot speak with one voice as they do not find each other: the others than the
-    /// first end here, silently, and after it, for one that ends may end all.
+    /// Exit with an error if processes cannot connect: all but the first silently, and after it, as
+    /// the first one's end may kill the others.
     [[noreturn]] void
     refuse_strangers(const Launch &launch, const std::string &reason)
     {
@@ -182,7 +182,7 @@ namespace Exemplar
                                   launch.program, launch.n_processes, reason));
     }
 
-    /// A signal handler: nothing but system calls is safe.
+    /// Signal handler for a timeout, where only system calls are safe.
     template <bool speaks>
     [[noreturn]] void
     end_of_waiting(int)
@@ -190,18 +190,18 @@ namespace Exemplar
       const char message[] = "exemplar: The processes have not found each other. Start all by one "
                              "command: mpirun -n N exemplar SCENE.prm\n";
       if (speaks && write(STDERR_FILENO, message, sizeof(message) - 1) < 0)
-        _exit(1); // nobody listens, which changes nothing
+        _exit(1); // no reader; exit all the same
       _exit(1);
     }
 
-    /// While it lives, the processes have time_to_join to find each other.
+    /// Time limit for the processes to connect, which ends with the lifetime of this object.
     class TimeToJoin
     {
     public:
       explicit TimeToJoin(const Launch &launch)
       {
         std::signal(SIGALRM, launch.process == 0 ? end_of_waiting<true> : end_of_waiting<false>);
-        alarm(time_to_join + (launch.process == 0 ? 0 : 5)); // who ends may end all
+        alarm(time_to_join + (launch.process == 0 ? 0 : 5)); // the first to end may end all
       }
 
       TimeToJoin(const TimeToJoin &) = delete;
@@ -216,7 +216,7 @@ namespace Exemplar
       }
     };
 
-    /// The MPI library that this program uses, in a few words.
+    /// Name of the MPI library in use.
     std::string
     mpi_library()
     {
@@ -304,13 +304,13 @@ namespace Exemplar
     has_joined = false;
     std::cout.flush();
     const bool failed = status != 0;
-    if (failed) // the others may end this process any time now, and it has nothing to say of that
+    if (failed) // others may end this process from now on, silently
       for (const int signal : { SIGINT, SIGTERM, SIGXCPU, SIGHUP, SIGUSR1 })
         std::signal(signal, end_silently);
     if (!all_come(ending, failed ? time_to_fail : std::numeric_limits<double>::infinity()))
     {
       if (is_another_before())
-        std::this_thread::sleep_for(std::chrono::seconds(10)); // that one ends this one
+        std::this_thread::sleep_for(std::chrono::seconds(10)); // ended by that one
       else
         report(place());
       end_all(status);
@@ -320,7 +320,7 @@ namespace Exemplar
       return 0;
     if (speaker == together.process)
       report(place());
-    MPI_Bcast(&status, 1, MPI_INT, speaker, ending); // also: the message is out
+    MPI_Bcast(&status, 1, MPI_INT, speaker, ending); // after the message has been printed
     end_all(status);
   }
 } // namespace Exemplar

@@ -18,9 +18,9 @@ main(int argc, char *argv[])
   Exemplar::restart_with_right_core_type(argv);
   Exemplar::use_one_blas_thread();
   dealii::MultithreadInfo::set_thread_limit(1);
-  std::signal(SIGXFSZ, SIG_IGN); // a write beyond ulimit -f then fails like any other
-  std::signal(SIGCHLD, SIG_DFL); // if our parent ignored it, no child would tell how it ended
+  std::signal(SIGXFSZ, SIG_IGN); // a write beyond ulimit -f then fails as others do
+  std::signal(SIGCHLD, SIG_DFL); // if ignored, the status of children would be lost
   dealii::deal_II_exceptions::disable_abort_on_exception();
-  const Exemplar::MpiSession mpi; // scenes without multigrid on one process never start it
+  const Exemplar::MpiSession mpi; // starts MPI only if it is needed
   return Exemplar::run_program(argc, argv);
 }

@@ -34,7 +34,7 @@ namespace Exemplar
       return fs::path(options.output).replace_extension(".csv");
     }
 
-    /// A file that may be written: anew, or again.
+    /// Throws UserError unless the file can be created or replaced.
     void
     require_output(const OwnFile            &file,
                    const MeshCommandOptions &options,
@@ -71,7 +71,7 @@ namespace Exemplar
       out.commit();
     }
 
-    /// A note where the unit of length is no metre, probably.
+    /// Add a note if the unit of length is probably not the metre.
     void
     add_unit(MeshingReport &report)
     {
@@ -93,7 +93,7 @@ namespace Exemplar
       std::cout << "written to " << message_text(file.string()) << '\n';
     }
 
-    /// The poses that patterns stand for, too.
+    /// Files of the poses, with patterns expanded.
     std::vector<fs::path>
     pose_files(const SurfaceMeshingOptions &meshing)
     {
@@ -122,7 +122,7 @@ namespace Exemplar
       }
     }
 
-    /// With a bar on a terminal, and nothing elsewhere.
+    /// Make the mesh, with a progress bar if on a terminal.
     MeshingReport
     make_shown(const SurfaceMeshingOptions &meshing, const MeshCommandOptions &options)
     {

@@ -28,7 +28,7 @@ namespace Exemplar
   {
     namespace fs = std::filesystem;
 
-    /// The comment by which a pose is known that this command has written.
+    /// The comment that marks poses written by this command.
     const std::string pose_comment = "a pose by exemplar";
 
     const std::string header_of_poses
@@ -37,7 +37,7 @@ namespace Exemplar
 
     const char *const remedy = " Give another directory by --output.";
 
-    /// A pose on its way from a surface to a mesh.
+    /// A pose to be carried from a surface to a mesh.
     struct PoseFile
     {
       fs::path    file, output;
@@ -52,7 +52,8 @@ namespace Exemplar
       std::cerr << "Warning: " << message_text(warning) << std::endl;
     }
 
-    /// The files to write, each for one pose, and none of them an input.
+    /// The files to write, one for each pose. Throws UserError if they clash with each other or
+    /// with inputs.
     std::vector<PoseFile>
     plan(const PoseOptions &options)
     {
@@ -98,7 +99,7 @@ namespace Exemplar
                         + ", and give these.");
     }
 
-    /// Of poses that are all turned alike by a right angle, as a body that lies down is in one.
+    /// Warn if all poses are rotated by the same right angle, as by an export with other axes.
     void
     warn_of_axes(const RestSurface &rest, const std::vector<PoseFile> &poses)
     {
@@ -124,7 +125,7 @@ namespace Exemplar
       warn_of_axes(rest, poses);
     }
 
-    /// Where the surface at rest is not that of the mesh, but the pose is.
+    /// Make the transfer; if it fails as --rest and --pose are swapped, say so.
     PoseTransfer
     make_transfer(const PoseOptions           &options,
                   const Mesh                  &mesh,
@@ -188,7 +189,7 @@ namespace Exemplar
       std::cout << std::flush;
     }
 
-    /// Writes the pose, or returns the elements that stay inverted in it.
+    /// Write the pose; if elements stay inverted, return them instead.
     std::string
     carry(PoseTransfer &transfer, const Mesh &mesh, PoseFile &pose)
     {
@@ -219,7 +220,7 @@ namespace Exemplar
     warn(mesh, rest, poses);
     make_directory(options.output, remedy);
 
-    is_interrupted(); // from now on a signal waits until a pose is done
+    is_interrupted(); // signals wait for the current pose from now on
     Progress    progress(std::cout, isatty(STDOUT_FILENO) != 0, options.quiet, 0,
                          static_cast<unsigned int>(poses.size()), "pose");
     std::string failures;

@@ -29,7 +29,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// Tells what takes a while before a run begins.
+    /// Announces slow preparations of a run.
     Announce
     announcer(const bool quiet)
     {
@@ -63,7 +63,7 @@ namespace Exemplar
       return problem;
     }
 
-    /// Begin or go on in the output directory, and keep there from now on what the run says.
+    /// Begin or continue in the output directory, and keep the log there.
     void
     take_directory(const RunOptions &options,
                    const Problem    &problem,
@@ -89,15 +89,15 @@ namespace Exemplar
       }
     }
 
-    /// On a terminal a line can be written over. What mpirun gives to processes looks like one, but
-    /// their output is mixed and, often, goes to a file.
+    /// Whether lines can be overwritten. Processes of mpirun seem to have a terminal, but their
+    /// output is mixed and often goes to a file.
     bool
     is_terminal()
     {
       return isatty(STDOUT_FILENO) != 0 && find_launch().program.empty();
     }
 
-    /// A failed step: all that there is, and why.
+    /// Write all results after a failed step, and throw SolverFailure with the cause.
     [[noreturn]] void
     end_with_failure(const Problem     &problem,
                      const SolveReport &report,
@@ -168,7 +168,7 @@ namespace Exemplar
     const auto problem
         = make_problem_and_warn(scene.get_parameters(), options, log, options.n_threads);
     RunWriter writer(*problem, scene);
-    is_interrupted(); // from now on a signal waits until the run has written what it has
+    is_interrupted(); // signals wait until results are written from now on
     take_directory(options, *problem, writer, log);
     for (const std::string &warning : { blas_warning(), instruction_set_warning() })
       if (!warning.empty())
@@ -193,7 +193,7 @@ namespace Exemplar
     {
       run_to_end(*problem, writer, log, progress, review);
     }
-    catch (const UserError &error) // files have been written, so it is not refused any more
+    catch (const UserError &error) // after writing files it is no refusal
     {
       throw std::runtime_error(error.what());
     }
@@ -206,7 +206,7 @@ namespace Exemplar
     const SceneFile scene(options.scene_file, options.overrides);
     RunLog          log(options.quiet);
     const auto      problem = make_problem_and_warn(scene.get_parameters(), options, log);
-    const RunWriter writer(*problem, scene); // may find that frames cannot show the surface
+    const RunWriter writer(*problem, scene); // may throw if frames cannot show the surface
     std::cout << printable(options.scene_file.string()) << ": valid; "
               << problem->body.mesh.n_cells() << " cells, " << problem->body.mesh.n_nodes()
               << " nodes, " << problem->time_axis.n_steps() << " steps" << std::endl;

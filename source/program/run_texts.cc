@@ -31,7 +31,7 @@ namespace Exemplar
       return text.str();
     }
 
-    /// How mesh and poses became, if they are made of surfaces.
+    /// Report on a mesh and poses made of surfaces; empty if none were.
     std::string
     made_text(const MadeOfSurfaces *made)
     {
@@ -42,7 +42,7 @@ namespace Exemplar
       return text;
     }
 
-    /// "4000", "1e6"
+    /// Number with four digits: "4000", "1e6"
     std::string
     plain(const double value)
     {
@@ -59,7 +59,7 @@ namespace Exemplar
       return minimum == maximum ? minimum : minimum + " to " + maximum;
     }
 
-    /// What shows a wrong unit.
+    /// Measures of the body that reveal a wrong unit.
     std::string
     body_text(const Problem &problem)
     {
@@ -108,7 +108,7 @@ namespace Exemplar
       return text.str();
     }
 
-    /// Cells of a body that one process solves faster than several, as doc/parallel.md has measured.
+    /// Number of cells below which one process is faster than several, measured in doc/parallel.md.
     unsigned int
     cells_of_one_process(const SceneKind scene)
     {

@@ -31,7 +31,7 @@ namespace Exemplar
   {
     namespace fs = std::filesystem;
 
-    /// Fills rows from what the runs have left.
+    /// Fills rows with the results of runs on disk.
     class RowMaker
     {
     public:
@@ -121,8 +121,8 @@ namespace Exemplar
       return n;
     }
 
-    /// The reference, then the first repeat of all runs, then the second: what slows the
-    /// machine down for a while shall not meet all repeats of one run.
+    /// Make the reference, then the first repeat of all runs, then the second, so that a temporary
+    /// slowdown of the machine does not affect all repeats of one run.
     void
     make_runs(const StudyPlan &plan, StudyRuns &runs, const StudyOptions &options)
     {
@@ -215,7 +215,7 @@ namespace Exemplar
       return table;
     }
 
-    /// Runs of other settings, inputs or another program; those that hold something else, too, stay.
+    /// Remove runs of other settings, inputs or programs, except those that hold foreign files.
     void
     remove_others(const StudyPlan &plan, const StudyRuns &runs)
     {
@@ -233,7 +233,7 @@ namespace Exemplar
     void
     print_end(const StudyTable &table, const StudyDirectory &directory)
     {
-      std::map<std::string, std::vector<std::string>> messages; // of each status
+      std::map<std::string, std::vector<std::string>> messages; // by status
       for (const StudyRow &row : table.rows)
         messages[row.status].push_back(row.message);
       std::cout << '\n';

@@ -24,7 +24,7 @@ namespace Exemplar
       return std::string::npos;
     }
 
-    /// As split_trimmed(), but quoted separators do not count.
+    /// split_trimmed(), except that quoted separators do not count.
     std::vector<std::string>
     split_unquoted(const std::string &text, const char separator)
     {
@@ -86,7 +86,8 @@ namespace Exemplar
       return split_at_blanks(text);
     }
 
-    /// Commas without blanks between numbers, beside blanks or only one, may as well be decimal signs.
+    /// Throws UserError for commas that may be decimal signs: between digits without blanks, if
+    /// there are blanks elsewhere or just one comma.
     void
     refuse_decimal_commas(const std::string &text, const std::string &place)
     {
@@ -99,7 +100,7 @@ namespace Exemplar
                         + "'. If commas separate values, write a blank behind each.");
     }
 
-    /// What other programs or files write, separate or enclose by other signs.
+    /// Throws UserError for brackets, ranges and separators of other programs' lists.
     void
     refuse_foreign_signs(const std::string &text, const std::string &place)
     {
@@ -117,7 +118,7 @@ namespace Exemplar
                           "and Reference by ';'.");
     }
 
-    /// How values of keys that change together are written, of which `value` has not as many.
+    /// Remedy for a value with fewer parts than keys that vary together.
     std::string
     remedy_of_joined(const std::string &value, const std::size_t n_keys)
     {
@@ -127,7 +128,7 @@ namespace Exemplar
                                        : ", and separated by commas.");
     }
 
-    /// Values that are three numbers each, separated by commas, are not values by commas.
+    /// Throws UserError if three-component values are separated by commas, like their components.
     void
     refuse_split_triples(const StudyAxis &axis, const std::string &text, const std::string &place)
     {
@@ -144,7 +145,7 @@ namespace Exemplar
                       + remedy + (n == 3 ? ";" : "") + ".");
     }
 
-    /// "Section/Key: values", or "Key + Key: value + value, ...".
+    /// Parse "Section/Key: values", or "Key + Key: value + value, ...".
     StudyAxis
     parse_axis(const std::string &text, const std::string &place)
     {

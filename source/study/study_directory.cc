@@ -15,12 +15,12 @@ namespace Exemplar
 
   namespace
   {
-    /// The first line of study.prm: by it a directory is known as ours.
+    /// The first line of study.prm, which marks directories of studies.
     const std::string mark = "# exemplar: the study of this directory";
 
     const std::string remedy = " Give another one by --output.";
 
-    /// Whether the file is empty or begins as study.csv does, whose first columns differ.
+    /// Whether the file is empty or has the fixed columns of study.csv; its first columns vary.
     bool
     has_head_of_table(const fs::path &file)
     {
@@ -33,7 +33,7 @@ namespace Exemplar
                  && head.compare(head.size() - end.size(), end.size(), end) == 0);
     }
 
-    /// Whether a run of a study, its scratch or a log is the file, or holds it.
+    /// Whether the file is, or lies in, a run of a study, its scratch or a log.
     bool
     is_of_a_run(const fs::path &file, const fs::path &runs)
     {
@@ -58,7 +58,7 @@ namespace Exemplar
   void
   StudyDirectory::refuse_directory_of_others() const
   {
-    // a study that was killed before it had a file leaves the first one's temporary
+    // a study killed before its first file was complete leaves only the temporary
     const bool is_stillborn = std::all_of(
         fs::directory_iterator(path), fs::directory_iterator(),
         [&](const auto &entry) { return entry.path() == AtomicFile::temporary_of(study_prm()); });
@@ -130,7 +130,7 @@ namespace Exemplar
     refuse_inputs(input_files);
     refuse_what_is_foreign();
     if (!is_ours())
-      write_study(""); // first: by it the directory is known as ours
+      write_study(""); // first, as it marks the directory
     fs::create_directories(runs());
   }
 

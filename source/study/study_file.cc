@@ -11,7 +11,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// The keys of a study file as text.
+    /// The values of a study file as text.
     struct Entries
     {
       std::string  scene, base, reference, vary;
@@ -58,7 +58,7 @@ namespace Exemplar
       }
     };
 
-    /// Throws UserError for what a study does not have, and if it lacks what it must have.
+    /// Throws UserError for keys that a study does not have, and for missing ones.
     void
     check_keys(const std::vector<Assignment> &given, const KeyTable &keys, const std::string &file)
     {
@@ -120,7 +120,7 @@ namespace Exemplar
       return point;
     }
 
-    /// What is set for all runs cannot be varied.
+    /// Throws UserError for keys that are both set for all runs and varied.
     void
     check_disjoint(const std::vector<Assignment> &base, const std::vector<StudyAxis> &axes)
     {

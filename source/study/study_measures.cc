@@ -18,7 +18,7 @@ namespace Exemplar
   {
     const double nan = std::numeric_limits<double>::quiet_NaN();
 
-    /// The rows of statistics.csv, whose cells hold no commas, one after the other.
+    /// Reads the rows of statistics.csv, whose cells hold no commas, one after the other.
     class StatisticsReader
     {
     public:
@@ -28,8 +28,8 @@ namespace Exemplar
         columns = cells;
       }
 
-      /// Go to the next row; false if there is none. A last line that a crash has cut
-      /// short is none.
+      /// Go to the next row; returns false at the end. A last line that a crash has truncated is
+      /// skipped.
       bool
       next()
       {
@@ -40,7 +40,7 @@ namespace Exemplar
         return true;
       }
 
-      /// A cell of the row; empty if it is absent.
+      /// A cell of the row; empty if the column is missing.
       std::string
       cell(const std::string &column) const
       {
@@ -49,7 +49,7 @@ namespace Exemplar
         return index < columns.size() && index < cells.size() ? cells[index] : "";
       }
 
-      /// A number of the row, or what stands for a cell that is absent or holds none.
+      /// A number of the row; `absent` if the cell is missing or no number.
       double
       number(const std::string &column, const double absent) const
       {
@@ -77,12 +77,12 @@ namespace Exemplar
              + row.number("work_loads", 0.);
     }
 
-    /// The bound on the energy after a step of implicit Euler, row by row.
+    /// The energy bound of implicit Euler, row by row.
     class EnergyBound
     {
     public:
-      /// How far a step is above it [J]; NaN in the first row, where handles have moved, and
-      /// where it does not hold.
+      /// Excess of a step over the bound [J]; NaN in the first row, if handles have moved, and if
+      /// the bound does not apply.
       double
       excess_of_step(const StatisticsReader &row)
       {
@@ -101,7 +101,7 @@ namespace Exemplar
       double handles_before = nan, bound = nan, work = nan;
     };
 
-    /// Finds points again whose coordinates differ by rounding only.
+    /// Finds points whose coordinates agree up to rounding.
     class PointIndex
     {
     public:
@@ -115,7 +115,7 @@ namespace Exemplar
       std::optional<unsigned int>
       find(const dealii::Point<3> &point) const
       {
-        for (unsigned int corner = 0; corner < 8; ++corner) // the point may lie in the next box
+        for (unsigned int corner = 0; corner < 8; ++corner) // also look in adjacent boxes
         {
           const auto found = indices.find(box_of(point, 0.5, corner));
           if (found != indices.end())
@@ -150,7 +150,7 @@ namespace Exemplar
       return maximum;
     }
 
-    /// For each node of `pose` that of the reference; empty if one has none.
+    /// The reference's node for each node of `pose`; empty if one has none.
     std::vector<unsigned int>
     match(const FinalPose &pose, const FinalPose &reference)
     {
@@ -178,7 +178,7 @@ namespace Exemplar
       run.residual        = std::fmax(run.residual, row.number("residual", nan));
       run.kkt             = std::fmax(run.kkt, row.number("kkt_residual", nan));
       const double energy = total_energy(row);
-      if (std::isnan(energy)) // a step that failed
+      if (std::isnan(energy)) // a failed step
         continue;
       if (std::isnan(first_energy))
         first_energy = energy;
@@ -214,7 +214,7 @@ namespace Exemplar
     std::ifstream in(file);
     if (!in)
       return {};
-    const auto json   = nlohmann::json::parse(in, nullptr, false); // damaged: nothing is in it
+    const auto json   = nlohmann::json::parse(in, nullptr, false); // empty if damaged
     const auto number = [&](const char *key)
     {
       if (!json.is_object() || !json.contains(key))

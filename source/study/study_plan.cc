@@ -17,7 +17,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// The scene of a run, or null where its values are refused; then `refusal` says why.
+    /// The scene of a run; null if its values are refused, with the message in `refusal`.
     std::unique_ptr<const SceneFile>
     scene_of(const std::vector<Assignment> &assignments,
              const Study                   &study,
@@ -50,7 +50,7 @@ namespace Exemplar
       return columns;
     }
 
-    /// A probe that is not in the box around the body was given in another unit, say.
+    /// Warnings of a probe outside the body's bounding box, perhaps in another unit.
     std::vector<std::string>
     warnings_of_probe(const Study &study, const std::vector<dealii::Point<3>> &nodes)
     {
@@ -73,13 +73,14 @@ namespace Exemplar
                + short_text(nearest[2]) + ". Rest positions are in metres." };
     }
 
-    /// What is known of a run that can be built.
+    /// Data of a run whose problem could be built.
     struct BuiltRun
     {
       std::vector<std::string> warnings, columns;
     };
 
-    /// Whether a run can be built, with what in it; why not is in `refusal`, if nothing is there yet.
+    /// Whether the problem of a run can be built; if not, `refusal` gets the message unless it has
+    /// one.
     bool
     can_be_built(const Study &study, const SceneFile &scene, BuiltRun &built, std::string &refusal)
     {
@@ -99,7 +100,7 @@ namespace Exemplar
       }
     }
 
-    /// Those of a study's columns that a run does not have.
+    /// The columns among `asked` that a run does not have.
     std::vector<std::string>
     missing_columns(std::vector<std::string> asked, const std::vector<std::string> &there)
     {
@@ -128,7 +129,7 @@ namespace Exemplar
       : study(study), scene_text(text_of_scene(study)), named_files{ study.file, study.scene }
   {
     check_extra_columns(study);
-    read_assignments(scene_text, study.scene.string()); // its syntax concerns all runs
+    read_assignments(scene_text, study.scene.string()); // its syntax errors concern all runs
     refuse_split_values();
     RunNames    names(study, scene_text);
     bool        parts_are_checked = false;
@@ -152,7 +153,7 @@ namespace Exemplar
     if (!study.reference.empty())
     {
       const auto assignments = study.reference_assignments();
-      SceneFile(study.scene, scene_text, assignments); // throws if it is refused
+      SceneFile(study.scene, scene_text, assignments); // throws if values are refused
       reference = plan({}, assignments);
       if (!parts_are_checked)
         throw UserError(refusal);
@@ -161,7 +162,7 @@ namespace Exemplar
       runs.push_back(plan(choice, study.assignments(choice)));
     if (!parts_are_checked)
     {
-      SceneFile(study.scene, scene_text, runs.at(0).assignments); // throws if that is why
+      SceneFile(study.scene, scene_text, runs.at(0).assignments); // throws if that is the cause
       throw UserError(refusal);
     }
     warnings = built.warnings;
@@ -183,7 +184,7 @@ namespace Exemplar
         SceneFile(study.scene, scene_text, assignments);
         return true;
       }
-      catch (const UserError &) // it may need the keys of other axes, too
+      catch (const UserError &) // it may need keys of other axes, too
       {
         return false;
       }

@@ -21,12 +21,12 @@ namespace Exemplar
     {
       Points points;
       for (const StudyRow *row : line.rows)
-        if (row->seconds.median > 0. && row->errors.l2 > 0.) // as the axes are logarithmic
+        if (row->seconds.median > 0. && row->errors.l2 > 0.) // logarithmic axes
           points.emplace_back(row->seconds.median, row->errors.l2);
       return points;
     }
 
-    /// gnuplot's string constant; in single quotes only the quote itself is special.
+    /// A string constant of gnuplot in single quotes, where only the quote is special.
     std::string
     quoted(const std::string &text)
     {
@@ -45,14 +45,14 @@ namespace Exemplar
       out << "EOD\n";
     }
 
-    /// Colours that the colour-blind can tell apart and that are not faint on white; the same as in
+    /// Colours that are distinguishable for the colour-blind and not faint on white; the same as in
     /// doc/scripts/plots.py.
     const std::array<const char *, 8> palette{ { "#0072b2", "#d55e00", "#009e73", "#aa4499",
                                                  "#e69f00", "#56b4e9", "#000000", "#777777" } };
-    /// gnuplot's disc, square, triangles up and down, diamond.
+    /// Numbers of gnuplot's disc, square, triangles up and down, diamond.
     const std::array<int, 5> marks{ { 7, 5, 9, 11, 13 } };
 
-    /// The place of a value among those seen; a new one comes last.
+    /// The index of a value among those seen; new ones are appended.
     template <typename T>
     std::size_t
     place_of(const T &value, std::vector<T> &seen)
@@ -63,7 +63,7 @@ namespace Exemplar
       return std::find(seen.begin(), seen.end(), value) - seen.begin();
     }
 
-    /// Styles of lines: the last axis chooses the colour, the others together dash and mark.
+    /// Styles of lines: the last axis sets the colour, the others together set dash and mark.
     class LineStyles
     {
     public:

@@ -13,7 +13,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// Three digits tell all that a table is read for.
+    /// The number with three digits, enough for a table; empty if not finite.
     std::string
     rounded(const double value, const int digits = 3)
     {
@@ -55,7 +55,7 @@ namespace Exemplar
           << "- Program: exemplar " << EXEMPLAR_VERSION << " (" << EXEMPLAR_GIT_REVISION << ")\n";
     }
 
-    /// A column of a table: the error or another number of a row; errors have an order.
+    /// A column of a table: an error, which has an order, or another number of a row.
     struct Column
     {
       std::string                             title;
@@ -162,7 +162,7 @@ namespace Exemplar
       }
     }
 
-    /// "Section/Key = value, ..." on all axes, or on those that do not change in a line.
+    /// "Section/Key = value, ..." on all axes, or on those that are constant in a line.
     std::string
     values_text(const StudyTable &table, const StudyRow &row, const bool of_line)
     {
@@ -175,7 +175,7 @@ namespace Exemplar
       return text;
     }
 
-    /// What failed for the same reason, together.
+    /// List failures, grouped by their message.
     void
     write_failures(std::ostream &out, const StudyTable &table)
     {

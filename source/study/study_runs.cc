@@ -20,9 +20,9 @@ namespace Exemplar
 
   namespace
   {
-    const char *const program = "/proc/self/exe"; // also if the file has been replaced since
+    const char *const program = "/proc/self/exe"; // valid also if the file has been replaced
 
-    /// Empty if there is none, or if it is damaged.
+    /// The object in a JSON file; empty if it is missing or damaged.
     Json
     read_json(const fs::path &file)
     {
@@ -38,7 +38,7 @@ namespace Exemplar
     }
 
     /// Why the directory of a run must not be removed, in words that follow its name; empty if it
-    /// holds nothing but what a run in a study leaves.
+    /// holds only files of a run in a study.
     std::string
     objection_to_removal(const fs::path &run)
     {
@@ -60,7 +60,7 @@ namespace Exemplar
       return "";
     }
 
-    /// Throws UserError if there is something that no run has left, so that none can be made here.
+    /// Throws UserError if foreign files are in a run's place.
     void
     require_removable(const fs::path &run)
     {
@@ -73,15 +73,15 @@ namespace Exemplar
               "away what is yours, or give another directory by --output.");
     }
 
-    /// Remove what a run has left, if it is there. Throws UserError, with nothing removed, if there is
-    /// something else, too.
+    /// Remove a run's files, if any. Throws UserError, with nothing removed, if there are other
+    /// files.
     void
     remove_run(const fs::path &run)
     {
       require_removable(run);
       if (is_absent(run))
         return;
-      fs::remove(record_file(run)); // first: what has lost a file must not count as done
+      fs::remove(record_file(run)); // first: an incomplete run must not count as done
       std::vector<fs::path> files;
       for (const auto &entry : fs::directory_iterator(run))
         files.push_back(entry.path());
@@ -90,7 +90,7 @@ namespace Exemplar
       fs::remove(run);
     }
 
-    /// Whether a study has made this directory of a run, whatever else it may hold by now.
+    /// Whether a study has made this directory of a run, even if it holds other files now.
     bool
     is_of_a_study(const fs::path &run)
     {
@@ -113,7 +113,7 @@ namespace Exemplar
       atomic_file.commit();
     }
 
-    /// What the program says when it fails, in one line; it is the last that it says.
+    /// The message of a failed program in one line; it is the last one in its log.
     std::string
     message_in(const fs::path &log)
     {
@@ -154,8 +154,8 @@ namespace Exemplar
       return record;
     }
 
-    /// Of the time stepping: reading and setting up is the same for all methods, and writing
-    /// depends on the disk.
+    /// Seconds of the time stepping alone: reading and set-up are the same for all methods, and
+    /// writing depends on the disk.
     double
     seconds_of(const ChildEnd &end, const Json &summary)
     {
@@ -224,12 +224,12 @@ namespace Exemplar
     }
     catch (const Json::exception &)
     {
-      return; // none, or of a version that wrote others
+      return; // none, or of another version
     }
     if (record.seconds.empty())
-      return; // not as we write it
+      return; // not written by a study
     if (record.status == "timeout" && (study.timeout == 0. || study.timeout > record.timeout))
-      return; // now it may take longer
+      return; // the timeout is longer now
     records[name] = record;
   }
 
@@ -250,7 +250,7 @@ namespace Exemplar
     };
     for (const Assignment &assignment : planned.assignments)
       command.insert(command.end(), { "--set", assignment.path() + "=" + assignment.value });
-    const fs::path log = directory / "running.log"; // a run wants its directory for itself
+    const fs::path log = directory / "running.log"; // a run needs its directory for itself
 
     remove_run(scratch());
     const ChildEnd end = run_program(command, log, study.timeout, stop);
@@ -274,7 +274,7 @@ namespace Exemplar
     const auto  earlier = records.find(planned.name);
     if (earlier != records.end() && earlier->second.succeeded())
     {
-      // all else is the same, unless the repeat was killed or took too long
+      // results are the same, unless the repeat was killed or timed out
       if (now.succeeded())
         earlier->second.seconds.push_back(now.seconds[0]);
       now = earlier->second;
@@ -284,7 +284,7 @@ namespace Exemplar
     else
     {
       remove_run(path(planned.name));            // without a record, or of a shorter timeout
-      write_record(now, record_file(scratch())); // first: what has a run's name is whole
+      write_record(now, record_file(scratch())); // first: a named run must be complete
       fs::rename(scratch(), path(planned.name));
     }
     return records[planned.name] = now;
@@ -318,7 +318,7 @@ namespace Exemplar
     if (const std::string objection = objection_to_removal(run); !objection.empty())
       throw UserError(run.string() + " " + objection + ", and so it stays. Remove it by hand.");
     remove_run(scratch());
-    fs::rename(run, scratch()); // a run is there as a whole or not at all
+    fs::rename(run, scratch()); // atomically: a run is on disk completely or not at all
     remove_run(scratch());
   }
 

@@ -18,7 +18,7 @@ namespace Exemplar
     Measurement::passes() const
     {
       const double error = std::abs(got - expected);
-      switch (comparison) // a NaN passes none
+      switch (comparison) // NaN passes no comparison
       {
       case Comparison::absolute:
         return error <= tolerance;
@@ -113,7 +113,7 @@ namespace Exemplar
                   << expected << std::setw(13) << got << tolerance << std::endl;
       }
 
-      /// Print a line for each number. Returns whether all are as expected.
+      /// Print a line for each number. Returns whether all pass.
       bool
       print(const std::string &name, const std::vector<Measurement> &measurements)
       {
@@ -127,7 +127,7 @@ namespace Exemplar
         return passes;
       }
 
-      /// Compute and print a case of one process.
+      /// Compute and print a case that one process computes.
       bool
       run(const Case &one)
       {
@@ -150,12 +150,12 @@ namespace Exemplar
 
   namespace
   {
-    /// Compute and print a case; whether it passes, which the root alone knows.
+    /// Compute and print a case. Returns whether it passes, on the root alone.
     bool
     run(const Verification::Case &one, const ProcessGroup &processes)
     {
       bool passes = true;
-      if (one.is_shared) // what fails in one process alone ends all
+      if (one.is_shared) // a failure in one process ends all
       {
         const auto measurements = one.measure();
         processes.at_root([&] { passes = Verification::print(one.name, measurements); });

@@ -9,13 +9,14 @@
 #include <algorithm>
 #include <cmath>
 
-// Balance of energy in quasistatic scenes: the work of handles is what a body stores and dissipates.
+// Balance of energy in quasistatic scenes: the work of handles equals stored plus dissipated
+// energy.
 
 namespace Exemplar::Verification
 {
   namespace
   {
-    /// A bar of which one end is moved to a place, in so many increments; `pull` are keys of its handle.
+    /// A bar with one end moved in this number of increments; `pull` are keys of its handle.
     std::string
     pulled_bar(const std::string &pull, const unsigned int increments)
     {
@@ -26,7 +27,7 @@ namespace Exemplar::Verification
              + section("Solver", set("Tolerance", 1e-11));
     }
 
-    /// What the body stores and has dissipated [J].
+    /// Stored and dissipated energy [J].
     double
     kept_energy(const Diagnostics &diagnostics, const Problem &problem)
     {
@@ -38,8 +39,8 @@ namespace Exemplar::Verification
       return sum;
     }
 
-    /// The work of the handles, with the means of the forces at the two ends of each increment, less what is
-    /// stored and dissipated, over the greatest work until an increment.
+    /// Work of the handles, by the trapezoidal rule, less stored and dissipated energy, relative to
+    /// the greatest work up to an increment.
     double
     imbalance(const std::string &scene)
     {

@@ -7,15 +7,15 @@
 
 #include <cmath>
 
-// Beams. Linear tetrahedra are too stiff in bending, so no case looks
-// at one mesh: three, each with cells of half the size, give the order and the limit.
+// Beams. Linear tetrahedra are too stiff in bending, so that cases use three meshes, each with
+// cells of half the size, for the order and the limit.
 
 namespace Exemplar::Verification
 {
   namespace
   {
-    // A beam of height 1 and width 1/4, Poisson's ratio 0. It bends in the plane y = const,
-    // and with nu = 0 nothing moves along y: one cell is enough across, and y is held.
+    // A beam of height 1 and width 1/4 that bends in the plane y = const. With Poisson's ratio 0
+    // nothing moves along y: one cell across is enough, and y is held.
     constexpr double width = 0.25, E = 1e6, I = width / 12.;
 
     std::string
@@ -69,7 +69,7 @@ namespace Exemplar::Verification
                { "order of w", 2., w.order(), Comparison::absolute, 0.3 },
                { "order of u", 2., u.order(), Comparison::absolute, 0.3 } };
     }
-    /// A force that grows with t and turns from x towards z, by an angle at t = 1.
+    /// A force that grows with t and rotates from x towards z, by `angle` at t = 1.
     std::string
     turning(const double force, const double angle)
     {
@@ -78,9 +78,8 @@ namespace Exemplar::Verification
       return size + "cos" + at + "; 0; " + size + "sin" + at;
     }
 
-    /// Dead forces on single nodes of the face x = L that share sigma(z) = -M z / I as a
-    /// linear traction along the axis as an arc of `angle` t turns it: there they are the
-    /// end moment M t.
+    /// End moment M t by dead forces on the nodes of the face x = L: the linear traction sigma(z) =
+    /// -M z / I along the axis, which rotates with the arc of `angle` t.
     std::string
     couple(const Mesh &mesh, const double slenderness, const unsigned int cells, const double angle)
     {
@@ -92,7 +91,7 @@ namespace Exemplar::Verification
         const dealii::Point<3> &X = mesh.get_nodes()[node];
         if (std::abs(X[0] - slenderness) > 1e-9)
           continue;
-        // integral of z N over the two (or, at an edge, one) cells beside z, half the width
+        // integral of z N over the two cells beside z (one at an edge), half the width
         const bool   edge = std::abs(std::abs(X[2]) - 0.5) < 1e-9;
         const double first
             = edge ? dz * (X[2] / 3. + (X[2] - std::copysign(dz, X[2])) / 6.) : dz * X[2];
@@ -129,8 +128,8 @@ namespace Exemplar::Verification
       };
     }
 
-    /// f_1 [Hz] of the stiffness at rest and the mass, by inverse iteration: K y = M x, with the
-    /// Rayleigh quotient y.K y / y.M y.
+    /// f_1 [Hz] for stiffness and mass at rest, by inverse iteration K y = M x, with the Rayleigh
+    /// quotient y.K y / y.M y.
     double
     first_frequency(const double slenderness, const unsigned int cells)
     {
@@ -145,7 +144,7 @@ namespace Exemplar::Verification
       p.potential.get_cells().get_field().update_rotations(p.body.fe_space.rest_positions());
       p.system.factorize(p.body.fe_space.rest_positions(), {}, 0.);
       double omega_squared = 0.;
-      for (unsigned int iteration = 0; iteration < 8; ++iteration) // f_2/f_1 = 6.3: 36^-8 is left
+      for (unsigned int iteration = 0; iteration < 8; ++iteration) // f_2/f_1 = 6.3: error 36^-8
       {
         const auto     right_side = mass_times(mass, mode);
         BorderedVector unknowns;

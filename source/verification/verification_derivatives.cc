@@ -14,8 +14,8 @@ namespace Exemplar::Verification
 {
   namespace
   {
-    // E = 1 and lengths of 1: forces and stiffnesses are numbers about 1, and errors are
-    // relative to 1 + the greatest entry, so that a vanishing force has a scale, too
+    // E = 1 and unit lengths: forces and stiffnesses are of order 1, and errors are relative to 1 +
+    // the greatest entry, so that vanishing forces have a scale, too
     const std::string short_bar
         = set("Scene", "static") + box({ { 3., 1., 1. } }, { { 3, 1, 1 } })
           + section("Material", set("Young's modulus", 1.) + set("Poisson's ratio", 0.3))
@@ -55,7 +55,7 @@ namespace Exemplar::Verification
       add("tangent", differences.of_tangent());
     }
 
-    /// At F (X + perturbation), without and with examples.
+    /// Errors of the derivatives at F (X + perturbation), without and with examples.
     std::vector<Measurement>
     derivatives_at(const Matrix3<double> &F, const double amplitude, const std::string &model)
     {
@@ -82,7 +82,7 @@ namespace Exemplar::Verification
       return all;
     }
 
-    /// The energy of Eq. (38) as its left side has it, cell by cell; fibres lie along x.
+    /// The energy in the form of the left side of Eq. (38), cell by cell; fibres are along x.
     double
     energy_of_two_elasticities(const Problem                &p,
                                const dealii::Vector<double> &x,
@@ -149,7 +149,7 @@ namespace Exemplar::Verification
       return { { { a, 0., 0. }, { 0., b, 0. }, { 0., 0., c } } };
     }
 
-    /// Of a law; the names of the default one are without its own.
+    /// The case of a law, whose name includes the law's unless that is the default one.
     Case
     case_at(const CellLaw          law,
             const std::string     &name,

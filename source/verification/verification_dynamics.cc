@@ -63,8 +63,8 @@ namespace Exemplar::Verification
                  Comparison::absolute, 1e-12 } };
     }
 
-    /// A cube of 2^3 bricks with one free degree of freedom, its middle along x, that starts
-    /// with the velocity v.
+    /// A cube of 2^3 bricks whose single free degree of freedom, its centre along x, has the
+    /// initial velocity v.
     std::string
     oscillator(const double v, const double h, const unsigned int n)
     {
@@ -77,12 +77,12 @@ namespace Exemplar::Verification
           = "abs(x-1) + abs(y) + abs(z) < 0.1 ? " + shortest_text(v) + " : 0";
       return set("Scene", "dynamic") + box({ { 2., 2., 2. } }, { { 2, 2, 2 } })
              + section("Material", set("Young's modulus", 1e4))
-             + section("Model", set("Dilatation", "cells")) // as oscillator_frequency()
+             + section("Model", set("Dilatation", "cells")) // as in oscillator_frequency()
              + named_sections("Handles", handles)
              + section("Initial", set("Velocity", at_middle + "; 0; 0")) + time(h, n * h);
     }
 
-    /// omega of its one free degree of freedom at rest, from the shape gradients and masses.
+    /// omega of the free degree of freedom at rest, from shape gradients and masses.
     double
     oscillator_frequency(const Problem &p)
     {
@@ -104,8 +104,8 @@ namespace Exemplar::Verification
     std::vector<Measurement>
     implicit_euler_oscillator()
     {
-      // the material is linear only in the limit: at v / omega = 1e-5 of a cell its square
-      // is 1e-5 of the displacement
+      // the material is linear only in the limit: at a displacement v / omega of 1e-5 cells, the
+      // quadratic term is 1e-5 of the linear one
       const double        v = 1e-4, h = 0.01;
       const unsigned int  n = 20;
       Scene               scene(oscillator(v, h, n));
@@ -119,7 +119,7 @@ namespace Exemplar::Verification
         advance(p);
         path.push_back(x());
       }
-      // x_n = v/omega Im z^n obeys x_(n+1) = 2 Re(z) x_n - |z|^2 x_(n-1): two such equations
+      // x_n = v/omega Im z^n satisfies x_(n+1) = 2 Re(z) x_n - |z|^2 x_(n-1): two such equations
       const double *c          = &path[n / 2];
       const double  D          = c[0] * c[0] - c[-1] * c[1];
       const double  twice_real = (c[0] * c[1] - c[-1] * c[2]) / D;
@@ -133,7 +133,7 @@ namespace Exemplar::Verification
                  1e-4 } };
     }
 
-    /// Order of the scheme from the changes between the steps h, h/2, h/4.
+    /// Order of the scheme from the differences between step lengths h, h/2, h/4.
     std::vector<Measurement>
     order_in_time(const std::string &scheme, const double expected)
     {
@@ -151,7 +151,7 @@ namespace Exemplar::Verification
       return { { "order", expected, std::log2(coarse / fine), Comparison::absolute, 0.1 } };
     }
 
-    /// A free body in uniform motion.
+    /// Mass damping of a free body in uniform motion.
     std::vector<Measurement>
     mass_damping()
     {
@@ -169,7 +169,7 @@ namespace Exemplar::Verification
       return dealii::Tensor<1, 3>({ a[0], a[1], a[2] });
     }
 
-    /// Greatest defect, relative, of L_(n+1) = L_n + h sum v_(n+1) x M v_n of a free body.
+    /// Greatest relative defect of L_(n+1) = L_n + h sum v_(n+1) x M v_n of a free body.
     double
     angular_momentum_defect(const std::string &model_and_solver)
     {

@@ -12,7 +12,7 @@
 #include <limits>
 #include <random>
 
-// What example poses and their weights must obey.
+// Properties of example poses and their weights.
 
 namespace Exemplar::Verification
 {
@@ -36,7 +36,7 @@ namespace Exemplar::Verification
       return section("Examples", set("Pose functions", poses) + keys);
     }
 
-    /// One step from a rigid motion of each example in turn: nothing moves, w = e_i.
+    /// A step from a rigid motion of each example must leave it in place with w = e_i.
     std::vector<Measurement>
     example_recovery()
     {
@@ -96,7 +96,7 @@ namespace Exemplar::Verification
                  Comparison::absolute, 0. } };
     }
 
-    /// eta w of the stretched and dragged bar with the scaled energy, free weights and no ridge.
+    /// eta w of the stretched and dragged bar with scaled energy, free weights and no ridge.
     double
     scaled_weight(const double importance)
     {
@@ -117,7 +117,7 @@ namespace Exemplar::Verification
     std::vector<Measurement>
     permutation()
     {
-      const std::string free = set("Weights", "free"); // bounds would make some of them zero
+      const std::string free = set("Weights", "free"); // bounds would make some zero
       Scene             pq(dragged + examples_of(twisted + " | " + stretched, free));
       Scene             qp(dragged + examples_of(stretched + " | " + twisted, free));
       const State       a = pq.solve(), b = qp.solve();
@@ -148,7 +148,7 @@ namespace Exemplar::Verification
     std::vector<Measurement>
     dependent_examples()
     {
-      // the second stretch is the first one halved: an affine combination with the rest pose
+      // the second stretch is half the first: an affine combination with the rest pose
       const std::string half       = "1.1*x; 0.95*y; z";
       double            is_refused = 0.;
       try
@@ -199,8 +199,8 @@ namespace Exemplar::Verification
       return qp;
     }
 
-    /// The least value over sum w = 1 with all but the weights of `active` at 0, by the
-    /// KKT system; infinite if a weight comes out negative.
+    /// Minimum over sum w = 1 with weights outside of `active` at 0, by the KKT system; infinite if
+    /// a weight is negative.
     double
     value_on_active_set(const WeightQp &qp, const std::vector<unsigned int> &active)
     {
@@ -239,7 +239,7 @@ namespace Exemplar::Verification
       return minimum;
     }
 
-    /// How far a solution is from the conditions of Karush, Kuhn and Tucker.
+    /// Violation of the conditions of Karush, Kuhn and Tucker by a solution.
     double
     kkt_error(const WeightQp &qp, const WeightQpSolution &solution)
     {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-// Closed forms of the material and what holds for every motion.
+// Closed forms of the material, and invariants of every motion.
 
 namespace Exemplar::Verification
 {
@@ -23,7 +23,7 @@ namespace Exemplar::Verification
     const std::string held_end
         = named_sections("Handles", { { "left", set("Select", "boundary 1") } });
 
-    /// A bar of volume 4 that a static scene accepts.
+    /// A bar of volume 4, held at one end for static scenes.
     const std::string held_bar
         = set("Scene", "static") + box({ { 4., 1., 1. } }, { { 4, 1, 1 } }) + material + held_end;
 
@@ -92,7 +92,7 @@ namespace Exemplar::Verification
       const State  state = scene.solve();
       const auto  &p     = scene.problem;
       const auto  &nodes = p.body.mesh.get_nodes();
-      const auto   far   = p.body.mesh.n_nodes() - 1; // the corner x+, y+, z+
+      const auto   far   = p.body.mesh.n_nodes() - 1; // the corner with greatest x, y, z
       const double width = state.positions[3 * far + 2] - (nodes[far][2] - 1.);
       return { { "force", youngs_modulus * (s - 1.),
                  p.constraints.handles.sum_over(1, p.evaluation.gradient)[0], Comparison::relative,
@@ -104,7 +104,7 @@ namespace Exemplar::Verification
     std::vector<Measurement>
     own_example_strain()
     {
-      // (1 - eta)^2 of the energy is left where it is scaled, 1 - eta where it is blended, Eq. (5)
+      // the remaining factor of the energy is (1 - eta)^2 if scaled, 1 - eta if blended, Eq. (5)
       const std::pair<std::string, double> cases[]
           = { { "scaled", 0.09 }, { "blended", 0.3 }, { "mixed", 0.8 * 0.09 + 0.2 * 0.3 } };
       std::vector<Measurement> all;

@@ -7,8 +7,8 @@
 
 #include <memory>
 
-// What several processes make of a body that they share: a closed form, and what the root finds
-// alone by another linear solver.
+// Several processes that share a body, against a closed form and against one process with another
+// linear solver.
 
 namespace Exemplar::Verification
 {
@@ -24,7 +24,7 @@ namespace Exemplar::Verification
       return std::make_unique<Problem>(parameters, read_shared_body(parameters, MPI_COMM_WORLD));
     }
 
-    /// The differences of positions, over the greatest displacement, and of weights.
+    /// Differences of positions, relative to the greatest displacement, and of weights.
     std::vector<Measurement>
     compare_with_one_process(const std::string &text)
     {
@@ -75,7 +75,7 @@ namespace Exemplar::Verification
                                                               + set("Tolerance", 1e-11)));
     }
 
-    /// Held ends that stretch the bar, whose sides are free to move along x alone: u = x / 10.
+    /// A bar stretched by its held ends, with sides free along x alone: u = x / 10.
     std::vector<Measurement>
     shared_stretch()
     {
@@ -101,7 +101,7 @@ namespace Exemplar::Verification
                { "energy", 4. * 1.5 * 0.4e6 / 100., problem->evaluation.elastic.energy,
                  Comparison::relative, 1e-10 } };
     }
-    /// A number that a cell has in whatever process.
+    /// Coordinates of the cells' centroids, the same in any process.
     std::vector<double>
     centroids(const Mesh &mesh)
     {
@@ -116,7 +116,7 @@ namespace Exemplar::Verification
       return values;
     }
 
-    /// Fields of the nodes and of the cells, put together and parted again.
+    /// Fields of nodes and cells, gathered and distributed again.
     std::vector<Measurement>
     shared_state()
     {

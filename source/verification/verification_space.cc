@@ -7,16 +7,15 @@
 
 #include <cmath>
 
-// Errors of space up to nearly incompressible bodies, in plane strain: bodies of one layer of cells
-// whose sides do not move across. Each case looks at three meshes, each with cells of half the
-// size, and at the limit to which they lead. Loads are small, so that the answers are those of
-// linear elasticity.
+// Discretisation errors up to nearly incompressible bodies, in plane strain: one layer of cells
+// whose sides do not move across. Each case uses three meshes, each with cells of half the size,
+// and their limit. Loads are small, so that linear elasticity applies.
 
 namespace Exemplar::Verification
 {
   namespace
   {
-    /// Settings of Model, and the name under which cases and pages speak of them.
+    /// Settings of Model, and their name in cases and in doc/.
     struct Element
     {
       std::string              name;
@@ -28,7 +27,7 @@ namespace Exemplar::Verification
         quadratic{ "P2", { "Model/Element=P2", "Model/Dilatation=cells" } },
         mean{ "P2-patches", { "Model/Element=P2", "Model/Dilatation=patches" } };
 
-    /// Cells across a body in its coarsest mesh: two patches, where one would be the whole of it.
+    /// Number of cells across a body in its coarsest mesh: 8 for patches, so that there are two.
     unsigned int
     coarsest(const Element &element)
     {
@@ -40,8 +39,8 @@ namespace Exemplar::Verification
 
     constexpr int first_strip = 100;
 
-    /// The unit box, mapped. The boundary `loaded` is cut into strips of a cell's width along
-    /// `axis`, with ids from first_strip: so a load may differ from strip to strip.
+    /// The unit box, mapped. The boundary `loaded` is divided into strips of a cell's width along
+    /// `axis`, with ids from first_strip, so that the load may vary by strip.
     Inputs
     striped_box(const Cells &n_cells, const int loaded, const unsigned int axis, const Map &map)
     {
@@ -95,8 +94,8 @@ namespace Exemplar::Verification
       return { name, set("Select", fmt::format("boundary {}", boundary)) + more };
     }
 
-    /// Cook's membrane (0,0), (48,44), (48,60), (0,44) in plane strain: the mean displacement of
-    /// the nodes near a place of the loaded edge along it, for a unit load.
+    /// Cook's membrane (0,0), (48,44), (48,60), (0,44) in plane strain under a unit load: the mean
+    /// displacement along the loaded edge of its nodes near `place`.
     double
     cook_deflection(const Element     &element,
                     const double       poisson,
@@ -138,7 +137,8 @@ namespace Exemplar::Verification
                { "order", 1., deflection.order(), Comparison::at_least } };
     }
 
-    /// What a mesh of 16 x 16 has of the limit, by P1 and by an element that does not lock.
+    /// Deflections on a 16 x 16 mesh relative to the limit, by P1 and by an element without
+    /// locking.
     std::vector<Measurement>
     cook_locking(const double poisson, const double limit)
     {
@@ -149,9 +149,9 @@ namespace Exemplar::Verification
                { "P2, 16 x 16, of the limit", 0.95, part(quadratic), Comparison::at_least } };
     }
 
-    /// A thick cylinder, 1 <= r <= 2, in plane strain under a unit pressure inside: the mean
-    /// displacement of the inner wall away from the axis. A quarter, between its planes of
-    /// symmetry; the wall is a polygon.
+    /// A thick cylinder, 1 <= r <= 2, in plane strain under a unit inner pressure: the mean radial
+    /// displacement of the inner wall. The mesh is a quarter between symmetry planes; the wall is a
+    /// polygon.
     double
     cylinder_expansion(const Element &element, const double poisson, const unsigned int cells)
     {
@@ -205,9 +205,9 @@ namespace Exemplar::Verification
     }
 
     /// Timoshenko's cantilever of length 4 and height 1 in plane strain: at x = 0 the displacements
-    /// of the closed form, at the end a load P = 1 that is spread as a parabola over the height (S.
-    /// Timoshenko, J. N. Goodier, Theory of Elasticity, section 21). The mean displacement of the
-    /// end along the load.
+    /// of the closed form, at the end a load P = 1 with a parabolic distribution over the height
+    /// (S. Timoshenko, J. N. Goodier, Theory of Elasticity, section 21). Returns the mean
+    /// displacement of the end along the load.
     double
     timoshenko_deflection(const Element &element, const double poisson, const unsigned int cells)
     {

@@ -17,7 +17,7 @@ namespace Exemplar::Verification
 {
   namespace
   {
-    /// A box of 2 x 1 x 1 whose interior nodes are off their places by up to 0.1.
+    /// A box of 2 x 1 x 1 whose interior nodes are perturbed by up to 0.1.
     Inputs
     irregular_box()
     {
@@ -58,7 +58,7 @@ namespace Exemplar::Verification
                  Comparison::absolute, 1e-12 } };
     }
 
-    /// One step of Newton's method with the exact tangent; weights are prescribed, loads absent.
+    /// One step of Newton's method with the exact tangent, prescribed weights and no loads.
     void
     newton_step(Problem &p, dealii::Vector<double> &x, const std::vector<double> &weights)
     {
@@ -72,7 +72,7 @@ namespace Exemplar::Verification
         x[p.constraints.free_dofs.list()[i]] += unknowns.positions[i];
     }
 
-    /// Half the error leaves a quarter after the step.
+    /// Quadratic convergence: half the error leads to a quarter of the error after a step.
     std::vector<Measurement>
     newton_quadratic()
     {
@@ -91,7 +91,7 @@ namespace Exemplar::Verification
       for (const unsigned int dof : p.constraints.free_dofs.list())
         direction[dof] = normal(generator);
       auto exact = solution.positions;
-      newton_step(p, exact, solution.weights); // to rounding
+      newton_step(p, exact, solution.weights); // exact to rounding
       const auto error_left = [&](const double error)
       {
         auto x = exact;
@@ -118,8 +118,8 @@ namespace Exemplar::Verification
       return maximum;
     }
 
-    /// The weights go from pose to pose evenly, and so must the body: where it jumps from one
-    /// equilibrium to another, an increment is much longer than the others.
+    /// Weights and body must move evenly from pose to pose: if the body jumps to another
+    /// equilibrium, one increment is much longer than the others.
     std::vector<Measurement>
     interpolation(const std::string &pose,
                   const unsigned int increments,
@@ -132,7 +132,7 @@ namespace Exemplar::Verification
           + section("Time", set("Increments", fmt::format("{}", increments)))
           + section("Solver", set("Tolerance", 1e-13)));
       Problem            &p = scene.problem;
-      std::vector<double> ways; // of the node that moves most, for each increment
+      std::vector<double> ways; // of the node that moves most, by increment
       for (unsigned int step = 0; step < increments; ++step)
       {
         const dealii::Vector<double> before = p.state.positions;

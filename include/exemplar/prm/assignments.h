@@ -11,7 +11,7 @@
 
 namespace Exemplar
 {
-  /// "set KEY = VALUE" at its place in a file, or a --set of the command line.
+  /// An assignment "set KEY = VALUE" in a file, or a --set of the command line, with its place.
   struct Assignment
   {
     std::vector<std::string> subsections;
@@ -19,7 +19,7 @@ namespace Exemplar
     std::string              value;
     std::string              place; ///< "scene.prm:12" or "--set"
 
-    /// "Section/Key", as --set and messages write it.
+    /// "Section/Key", as in --set and in messages.
     std::string
     path() const;
   };
@@ -28,23 +28,23 @@ namespace Exemplar
   std::string
   read_prm(const std::filesystem::path &file);
 
-  /// All assignments in the text of a .prm file in order, checked for syntax only: `subsection`
+  /// All assignments in the text of a .prm file in order. Only the syntax is checked: `subsection`
   /// and `end` match, no key is set twice. Throws UserError with file and line. `sections` are
-  /// names of subsections that lie in no other: they tell which one lacks its `end`.
+  /// names of outermost subsections, by which a missing `end` is located.
   std::vector<Assignment>
   read_assignments(const std::string           &prm_text,
                    const std::string           &file,
                    const std::set<std::string> &sections = {});
 
-  /// "Section/Subsection/Key=value"; `place` is the assignment's.
+  /// Parse "Section/Subsection/Key=value"; `place` is where it stands.
   Assignment
   parse_assignment(const std::string &text, const std::string &place);
 
-  /// The same from a --set of the command line.
+  /// Parse a --set of the command line.
   Assignment
   parse_override(const std::string &text);
 
-  /// The value that `path` ("Section/Key") gets last, or nullptr.
+  /// The last assignment to `path` ("Section/Key"), or nullptr.
   const Assignment *
   find_assignment(const std::vector<Assignment> &assignments, const std::string &path);
 

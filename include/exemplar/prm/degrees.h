@@ -7,17 +7,17 @@
 
 namespace Exemplar
 {
-  /// A sine, cosine or tangent of what looks like degrees.
+  /// A call of sin, cos or tan whose argument looks like degrees.
   struct AngleInDegrees
   {
     std::string function; ///< "sin"
     std::string argument; ///< "90*t"
-    std::string number;   ///< that looks like degrees: "90"
-    bool        lacks_pi; ///< there is "/180", which would need pi
+    std::string number;   ///< the part that looks like degrees: "90"
+    bool        lacks_pi; ///< divides by 180 without a factor pi
   };
 
-  /// Those in formulas whose argument holds a whole number of fifteens, 30 or more, that is not
-  /// divided by, and no pi: 30, 45, 60, 90, 180, ... None in what is too long to be written by hand.
+  /// Calls of sin, cos and tan whose argument contains a multiple of 15 >= 30, not as a divisor,
+  /// and no pi. None in texts that are too long to be written by hand.
   std::vector<AngleInDegrees>
   find_degrees(const std::string &formulas);
 } // namespace Exemplar

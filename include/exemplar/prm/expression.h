@@ -15,9 +15,9 @@ namespace Exemplar
   class Expression
   {
   public:
-    /// `key` stands for the formulas in messages, `variables` is a subset of
-    /// "xyzt". Throws UserError if there are not `n_components` formulas, or one
-    /// that muParser does not understand, naming the formula and what is allowed.
+    /// `key` names the formulas in messages, `variables` is a subset of "xyzt". Throws UserError,
+    /// with the formula and a remedy, if there are not `n_components` formulas, or if muParser
+    /// cannot parse one.
     Expression(const std::string &key,
                const std::string &text,
                const std::string &variables,
@@ -32,7 +32,7 @@ namespace Exemplar
     std::vector<double>
     values(const dealii::Point<3> &position, double time) const;
 
-    /// The same for three components.
+    /// Values of three components at (x, y, z) and t [s]. Throws as values().
     dealii::Tensor<1, 3>
     vector(const dealii::Point<3> &position, double time) const;
 

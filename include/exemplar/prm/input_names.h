@@ -7,9 +7,8 @@
 
 namespace Exemplar
 {
-  /// The name of an input file, or names separated by commas if it is a list, made absolute if
-  /// there is a directory to start from. Throws UserError for a name that a scene file could not
-  /// hold.
+  /// The name of an input file, or a list of names separated by commas, made absolute if
+  /// `directory` is not empty. Throws UserError for a name that a scene file cannot hold.
   std::string
   absolute_files(const std::string &value, bool is_list, const std::filesystem::path &directory);
 } // namespace Exemplar

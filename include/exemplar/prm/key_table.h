@@ -16,13 +16,13 @@
 
 namespace Exemplar
 {
-  /// A key that is declared nowhere, as opposed to a value that is not allowed.
+  /// Exception for an undeclared key, as opposed to a value that is not allowed.
   class UnknownKey : public UserError
   {
     using UserError::UserError;
   };
 
-  /// One table per enum gives its names in scene files and in messages.
+  /// The names of an enum's values in scene files and in messages.
   template <typename Enum>
   using EnumTable = std::vector<std::pair<Enum, std::string>>;
 
@@ -36,13 +36,13 @@ namespace Exemplar
     throw std::logic_error("enum value without a name");
   }
 
-  /// The numbers that are allowed, bounds included.
+  /// The interval of allowed numbers, bounds included.
   struct Bounds
   {
     double low  = std::numeric_limits<double>::lowest();
     double high = std::numeric_limits<double>::max();
 
-    /// Greater than 0: the least positive number that makes sense keeps 0 out.
+    /// Positive numbers; 0 is excluded by a tiny lower bound.
     static Bounds
     positive()
     {
@@ -50,25 +50,25 @@ namespace Exemplar
     }
   };
 
-  /// A declared key: where it is, what it says, and what it may say.
+  /// A declared key: its path, value and allowed values.
   struct DeclaredKey
   {
     std::vector<std::string> subsections;
     std::string              key;
-    std::string              value; ///< as it was set, else the default
+    std::string              value; ///< as set, else the default
     std::string              default_value;
     std::string              documentation;
     std::string              allowed;               ///< in words
     bool                     is_input_file = false; ///< of one file, or of a list of files
     bool                     is_list       = false; ///< values separated by commas
-    std::string              separator     = ", ";  ///< of the entries, if its value has several
+    std::string              separator     = ", ";  ///< between entries, if there are several
 
     std::string
     path() const;
   };
 
-  /// The keys of a file, each bound to a variable that the text of its value is written to. The
-  /// present content of the variable is the default. Variables must stay where they are.
+  /// The keys of a file, each bound to a variable to which its value is written. The variable's
+  /// content at declaration is the default. Variables must keep their addresses.
   class KeyTable
   {
   public:
@@ -78,7 +78,7 @@ namespace Exemplar
     operator=(const KeyTable &)
         = delete;
 
-    /// What is declared from now on lies in a subsection of the present one.
+    /// Declare the following keys in a subsection of the present one.
     void
     enter_subsection(const std::string &name);
 
@@ -91,7 +91,7 @@ namespace Exemplar
         const std::string &documentation,
         const Bounds      &bounds = {});
 
-    /// The bounds are whole numbers.
+    /// Declare an unsigned integer.
     void
     add(const std::string &key,
         unsigned int      &value,
@@ -101,7 +101,7 @@ namespace Exemplar
     void
     add(const std::string &key, bool &value, const std::string &documentation);
 
-    /// A text, which may have several entries.
+    /// Declare a text, which may have several entries.
     void
     add(const std::string &key,
         std::string       &value,
@@ -120,7 +120,7 @@ namespace Exemplar
         const std::string           &documentation,
         const Bounds                &bounds);
 
-    /// A choice among the names of a table, which must outlive this.
+    /// Declare a choice among the names of a table, which must outlive this.
     template <typename Enum>
     void
     add(const std::string     &key,
@@ -128,56 +128,56 @@ namespace Exemplar
         const EnumTable<Enum> &table,
         const std::string     &documentation);
 
-    /// Names separated by commas.
+    /// Declare a list of names separated by commas.
     void
     add_names(const std::string        &key,
               std::vector<std::string> &value,
               const std::string        &documentation);
 
-    /// One or more of `names`, each once, separated by commas.
+    /// Declare a list of one or more of `names`, each at most once, separated by commas.
     void
     add_choices(const std::string              &key,
                 std::vector<std::string>       &value,
                 const std::vector<std::string> &names,
                 const std::string              &documentation);
 
-    /// The name of an input file.
+    /// Declare the name of an input file.
     void
     add_file(const std::string &key, std::string &value, const std::string &documentation);
 
-    /// Names of input files, separated by commas.
+    /// Declare a list of names of input files, separated by commas.
     void
     add_files(const std::string        &key,
               std::vector<std::string> &value,
               const std::string        &documentation);
 
-    /// All keys: those of a subsection follow one another, in order of declaration.
+    /// All keys, those of a subsection together, in order of declaration.
     std::vector<DeclaredKey>
     keys() const;
 
-    /// Whether there is a key of this path ("Section/Key").
+    /// Whether a key of this path ("Section/Key") is declared.
     bool
     declares(const std::string &path) const;
 
-    /// The text of a key that there is, by "Section/Key".
+    /// The text of a declared key's value, by its path "Section/Key".
     const std::string &
     get(const std::string &path) const;
 
-    /// Give a key that there is a text that is allowed.
+    /// Set a declared key to a text, which must be allowed.
     void
     set(const std::string &path, const std::string &text);
 
-    /// Set values; input files become absolute, relative ones starting from `directory`; if that
-    /// is empty, they stay. Throws UnknownKey for an undeclared key (with the nearest declared
-    /// ones) and UserError for a value that is not allowed.
+    /// Set values; names of input files are made absolute relative to `directory`, unless that is
+    /// empty. Throws UnknownKey for an undeclared key (with the nearest declared ones) and
+    /// UserError for a value that is not allowed.
     void
     apply(const std::vector<Assignment> &assignments, const std::filesystem::path &directory);
 
   private:
-    /// Writes a text to a variable; false if it is not allowed.
+    /// Parse a text and write it to a variable; returns false if it is not allowed.
     using Setter = std::function<bool(const std::string &)>;
 
-    /// A key and how its text becomes a value.
+    /// A key and its setter.
     struct Entry
     {
       DeclaredKey declared;
@@ -198,16 +198,16 @@ namespace Exemplar
     void
     insert(DeclaredKey declared, const Setter &set);
 
-    /// Of a path; the number of entries if it is not declared.
+    /// Index of a path in `entries`; their number if it is not declared.
     std::size_t
     index_of(const std::string &path) const;
 
-    std::vector<std::string> subsections; ///< the present one
+    std::vector<std::string> subsections; ///< path of the present one
     std::vector<Entry>       entries;
   };
 
-  /// All keys and values in force as a .prm; with documentation, default and
-  /// allowed values as comments where `documented`.
+  /// Print all keys and values in force as a .prm, if `documented` with documentation, default and
+  /// allowed values as comments.
   void
   print_keys(std::ostream &out, const std::vector<DeclaredKey> &keys, bool documented);
 

@@ -10,22 +10,21 @@ namespace Exemplar
 {
   struct DeclaredKey;
 
-  /// The letters and digits of a text: people write YoungsModulus, youngs_modulus and the like.
+  /// The letters and digits of a text in lower case: YoungsModulus and youngs_modulus agree.
   std::string
   letters_of(const std::string &text);
 
-  /// What to say of a path ("Section/Key") that no key has: which keys may have been meant, or
-  /// else which keys the section has. One or more sentences. Keys of the command line are named
-  /// with `option_value` ("=value") behind them, as a shell takes them.
+  /// Remedy for an undeclared path ("Section/Key"): the keys that may be meant, or else the keys of
+  /// the section, in sentences. Keys of the command line are followed by `option_value` ("=value"),
+  /// as in a shell.
   std::string
   remedy_of_key(const std::string              &path,
                 const std::vector<DeclaredKey> &keys,
                 const std::string              &option_value = "");
 
-  /// What to say of a value that a key does not allow. If it becomes an allowed one by a change
-  /// that undoes a common mistake, such as a decimal comma: that change, and what it makes. Else
-  /// what the key means. Begins with a blank, or is empty. `is_allowed` tells of a
-  /// text whether the key allows it.
+  /// Remedy for a value that a key does not allow, beginning with a blank; may be empty. If undoing
+  /// a common mistake, such as a decimal comma, makes it allowed, this is the remedy; else the
+  /// meaning of the key. `is_allowed` tests texts.
   std::string
   remedy_of_value(const DeclaredKey                              &key,
                   const std::string                              &value,

@@ -14,14 +14,15 @@ namespace CLI
 
 namespace Exemplar
 {
-  /// What to say of a command line that is not understood: which word is wrong, and what it was
-  /// probably meant to be. `words` are those behind the program's name.
+  /// Message on an invalid command line: the wrong word, and its likely meaning. `words` are those
+  /// after the program's name.
   std::string
   message_of_arguments(const CLI::App                 &app,
                        const CLI::ParseError          &error,
                        const std::vector<std::string> &words);
 
-  /// Throws UserError for a mesh, a directory or a misspelt command, which cannot be run, and says what can.
+  /// Throws UserError, with a remedy, if `file` is a mesh, a directory or a misspelt command
+  /// instead of a scene.
   void
   require_scene(const std::filesystem::path &file);
 } // namespace Exemplar

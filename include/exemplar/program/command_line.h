@@ -4,8 +4,7 @@
 
 namespace Exemplar
 {
-  /// Do what the command line asks for and return the exit status. Throws what the
-  /// commands throw.
+  /// Execute the command line and return the exit status. Throws the commands' exceptions.
   int
   run_command_line(int argc, char *argv[]);
 } // namespace Exemplar

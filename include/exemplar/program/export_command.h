@@ -7,15 +7,15 @@
 
 namespace Exemplar
 {
-  /// What `exemplar export` is told.
+  /// Options of `exemplar export`.
   struct PageOptions
   {
     std::vector<std::string> runs; ///< output directories
-    std::string              html; ///< the page
+    std::string              html; ///< file of the page
   };
 
-  /// Write one page that plays the frames of runs, and say how exact it is. Throws UserError with nothing
-  /// written.
+  /// Write a page that plays the frames of runs, and print its accuracy. Throws UserError with
+  /// nothing written.
   void
   write_page(const PageOptions &options);
 } // namespace Exemplar

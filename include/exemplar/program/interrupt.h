@@ -4,19 +4,20 @@
 
 namespace Exemplar
 {
-  /// From now on Ctrl-C, SIGTERM, SIGXCPU and SIGHUP (unless nohup has it ignored) end the program at
-  /// once with a message and status 130. To be called first in main().
+  /// Let Ctrl-C, SIGTERM, SIGXCPU and SIGHUP (unless ignored by nohup) end the program at once with
+  /// a message and status 130. Call first in main().
   void
   end_at_interrupts();
 
-  /// Whether such a signal has come since the first call. From that call on the first one is only
-  /// noted, so that a run can save what it has, and a second one ends the program.
+  /// Whether one of these signals has arrived since the first call. From that call on, the first
+  /// signal is only recorded, so that a run can save its results, and a second one ends the
+  /// program.
   bool
   is_interrupted();
 
-  /// Among several processes a first signal is only noted from now on, as the others must hear of it, and so
-  /// is SIGUSR1: after other signals mpirun leaves processes a second to live, but passes this one on. At a
-  /// second one the process ends, and only one `that_speaks` says so.
+  /// For one of several processes: record the first signal and SIGUSR1 without ending, as the
+  /// others must learn of it. mpirun kills processes a second after other signals, but passes
+  /// SIGUSR1 on. A second signal ends the process, with a message only if `that_speaks`.
   void
   note_interrupts_together(bool that_speaks);
 } // namespace Exemplar

@@ -4,8 +4,8 @@
 
 namespace Exemplar
 {
-  /// Go on as exemplar-live, the program beside this one, with the arguments of this one; returns only
-  /// by UserError.
+  /// Replace this process by exemplar-live, the program next to this one, with the same arguments;
+  /// returns only by UserError.
   [[noreturn]] void
   become_live_program(char *argv[]);
 } // namespace Exemplar

@@ -6,18 +6,18 @@
 
 namespace Exemplar
 {
-  /// What the command line says of a mesh to be made.
+  /// Options of `exemplar mesh`.
   struct MeshCommandOptions
   {
     SurfaceMeshingOptions meshing;
-    std::filesystem::path output; ///< .msh; the table goes beside it, .csv
+    std::filesystem::path output; ///< .msh; the table .csv is written next to it
     bool                  quiet = false;
-    std::filesystem::path faults; ///< .csv; if it is given, they are listed and no mesh is made
+    std::filesystem::path faults; ///< .csv; if given, faults are listed and no mesh is made
   };
 
-  /// Make a mesh inside a surface, write it and its table, and print the table. Nothing is written
-  /// if anything fails. Throws UserError, SolverFailure as mesh_surface() does.
-  /// Or write a table of the surface's faults, if `faults` is given.
+  /// Make a mesh inside a surface, write it and its table, and print the table; or, if `faults` is
+  /// given, write a table of the surface's faults. Nothing is written if anything fails. Throws
+  /// UserError, and SolverFailure as mesh_surface().
   void
   run_mesh_command(const MeshCommandOptions &options);
 } // namespace Exemplar

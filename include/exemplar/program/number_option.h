@@ -16,7 +16,7 @@
 
 namespace Exemplar
 {
-  /// A bound of an option, for messages.
+  /// Text of a bound of an option, for messages.
   template <typename Number>
   std::string
   bound_text(const Number bound)
@@ -27,8 +27,7 @@ namespace Exemplar
       return shortest_text(bound);
   }
 
-  /// The whole number that a text such as 1e4 or 10,000 means, as a question with a blank behind it;
-  /// nothing for other texts.
+  /// "Did you mean N? " with the integer for a text such as 1e4 or 10,000; empty for other texts.
   inline std::string
   meant_number(const std::string &text, const double minimum, const double maximum)
   {
@@ -42,10 +41,9 @@ namespace Exemplar
                : "";
   }
 
-  /// Declare an option that takes a number from `minimum` to `maximum`, in decimal digits alone:
-  /// CLI11 itself would take NaN for a number in any range, and octal and hexadecimal ones. Whoever
-  /// gives another text gets a UserError, with `remedy`, a sentence with a blank behind it. `target`
-  /// may be a std::optional.
+  /// Declare an option that takes a decimal number from `minimum` to `maximum`: CLI11 itself would
+  /// accept NaN in any range, and octal and hexadecimal numbers. Other texts lead to a UserError
+  /// with `remedy`, a sentence with a trailing blank. `target` may be a std::optional.
   template <typename Target, typename Number>
   CLI::Option *
   add_number_option(CLI::App          &app,

@@ -8,7 +8,7 @@
 
 namespace Exemplar
 {
-  /// What `exemplar pose` is told.
+  /// Options of `exemplar pose`.
   struct PoseOptions
   {
     std::filesystem::path    mesh, rest, output;
@@ -18,9 +18,9 @@ namespace Exemplar
     bool                     quiet     = false;
   };
 
-  /// Carry each pose of the surface onto the mesh: OUTPUT/NAME.msh for a pose NAME.obj, and
+  /// Carry each pose of the surface onto the mesh: write OUTPUT/NAME.msh for a pose NAME.obj, and
   /// OUTPUT/poses.csv. Throws UserError before anything is written, and SolverFailure, with the
-  /// elements, when the other poses are on disk, if cells of some stay inverted.
+  /// elements, after the other poses are written, if cells stay inverted.
   void
   carry_poses(const PoseOptions &options);
 } // namespace Exemplar

@@ -11,35 +11,35 @@
 
 namespace Exemplar
 {
-  /// What a run says beside its progress: on the terminal, and in a file that keeps it. Of several
-  /// processes the root alone speaks.
+  /// Messages of a run other than its progress, on the terminal and in a file. With several
+  /// processes, the root alone writes.
   class RunLog
   {
   public:
     /// If `quiet`, the terminal shows warnings alone.
     explicit RunLog(bool quiet);
 
-    /// Lines, each of which is ended.
+    /// Print lines, each with its newline, and write them to the file.
     void
     say(const std::string &lines);
 
-    /// What goes wrong, but ends nothing. It is shown on stderr.
+    /// Print a warning on stderr, and write it to the file.
     void
     warn(const std::string &warning);
 
     void
     warn(const std::vector<std::string> &all);
 
-    /// Lines for the file alone.
+    /// Write lines to the file only.
     void
     note(const std::string &lines);
 
-    /// From now on all goes to this file, too, behind what it holds, and first what was said before.
-    /// Throws std::runtime_error, as all functions do from now on, if it cannot be written.
+    /// Append all messages to this file from now on, after those so far. Throws std::runtime_error,
+    /// as all functions do from now on, if it cannot be written.
     void
     keep_in(const std::filesystem::path &path);
 
-    /// All so far.
+    /// All warnings so far.
     const std::vector<std::string> &
     get_warnings() const
     {
@@ -50,8 +50,8 @@ namespace Exemplar
     const ProcessGroup      &processes;
     const bool               quiet;
     std::vector<std::string> warnings;
-    std::string              waiting; ///< for the file
-    std::filesystem::path    path;    ///< empty: there is none yet
+    std::string              waiting; ///< text for the file, not yet written
+    std::filesystem::path    path;    ///< empty: no file yet
     std::ofstream            file;
   };
 } // namespace Exemplar

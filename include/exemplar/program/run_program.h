@@ -4,7 +4,7 @@
 
 namespace Exemplar
 {
-  /// What the command line asks for, with a message for what fails; the exit status.
+  /// Execute the command line, with messages for failures; returns the exit status.
   int
   run_program(int argc, char *argv[]);
 } // namespace Exemplar

@@ -9,7 +9,7 @@
 
 namespace Exemplar
 {
-  /// What the command line says of a run.
+  /// Options of a run.
   struct RunOptions
   {
     std::filesystem::path    scene_file;
@@ -17,15 +17,15 @@ namespace Exemplar
     bool                     resume = false;
     bool                     quiet  = false;
 
-    std::optional<unsigned int> resume_from;            ///< the step to go on from, with this scene
-    bool                        verbose        = false; ///< a line an iteration instead of the bar
-    unsigned int                n_threads      = 1;
-    bool                        allow_commands = false; ///< a .geo may run programs and write files
+    std::optional<unsigned int> resume_from; ///< the step after which to continue, with this scene
+    bool                        verbose   = false; ///< a line an iteration instead of the bar
+    unsigned int                n_threads = 1;
+    bool allow_commands = false; ///< whether a .geo may run programs and write files
   };
 
-  /// Solve a scene from its first (or, resumed, its next) step to the last and write
-  /// the results. Throws UserError before anything is written; SolverFailure and
-  /// Interrupted after everything that was computed is on disk.
+  /// Solve a scene from its first (or, if resumed, its next) step to the last and write the
+  /// results. Throws UserError before anything is written; SolverFailure and Interrupted after all
+  /// results so far are on disk.
   void
   run_scene(const RunOptions &options);
 

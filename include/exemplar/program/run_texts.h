@@ -7,31 +7,33 @@
 
 #include <string>
 
-// What a run tells its user, in lines that are ended.
+// Texts of a run for its user; each line ends in a newline.
 
 namespace Exemplar
 {
-  /// What is solved, on what body and how. All processes that share the body must call this.
-  /// From where a run goes on.
+  /// The step after which a run continues, and whether any steps are left.
   std::string
   resumption_text(const Problem &problem);
 
+  /// Header of a run: the problem, its body and methods. All processes that share the body must
+  /// call this.
   std::string
   header_text(const Problem &problem);
 
-  /// What the run has cost, and what is known of the errors of its steps and of its mesh.
+  /// Costs of the run, and estimated errors of its steps and its mesh.
   std::string
   closing_text(const Problem &problem, const RunWriter &writer);
 
-  /// From where the last step was solved and what was found, a line each; empty unless Solver/Starts asks.
+  /// Starts of the last step and their outcomes, a line each; empty without Solver/Starts =
+  /// examples.
   std::string
   starts_text(const Problem &problem);
 
-  /// What a step, or its last iteration, has come to.
+  /// Outcome of a step or of its last iteration.
   std::string
   progress_text(const SolveReport &report);
 
-  /// A line for an iteration of the step under way.
+  /// A line for an iteration of the current step.
   std::string
   iteration_text(const Problem &problem, const SolveReport &report);
 } // namespace Exemplar

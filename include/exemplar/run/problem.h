@@ -2,7 +2,7 @@
 #ifndef exemplar_run_problem_h
 #define exemplar_run_problem_h
 
-// What programs of others include (doc/embedding.md): the scene, its inputs, and the problem.
+// Header for other programs (doc/embedding.md): the scene, its inputs, and the problem.
 
 #include <exemplar/run/problem/problem.h>
 

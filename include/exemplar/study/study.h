@@ -11,30 +11,29 @@
 
 namespace Exemplar
 {
-  /// How a run of this program is made: as run_child() does it.
+  /// Runs a command as run_child() does.
   using RunProgram = std::function<ChildEnd(const std::vector<std::string> &command,
                                             const std::filesystem::path    &log,
                                             double                          timeout,
                                             const std::function<bool()>    &stop)>;
 
-  /// What the command line says of a study.
+  /// Options of `exemplar study`.
   struct StudyOptions
   {
     std::filesystem::path file;
     std::filesystem::path output; ///< empty: output/NAME of the study file
     bool                  quiet = false;
-    std::function<bool()> stop; ///< asked from the first run on: true interrupts the study
+    std::function<bool()> stop; ///< polled from the first run on: true interrupts the study
     RunProgram            run_program = run_child;
   };
 
-  /// Make the runs of a study that are not there yet, each in a process of its own, and write
-  /// its tables and figure. Throws UserError before anything is written; Interrupted with
-  /// all finished runs on disk.
+  /// Make the missing runs of a study, each in its own process, and write its tables and figure.
+  /// Throws UserError before anything is written; Interrupted with all finished runs on disk.
   void
   run_study(const StudyOptions &options);
 
-  /// Check a study, the scenes of all its runs and the files of one; compute and write
-  /// nothing. Throws UserError.
+  /// Check a study, the scenes of all its runs and the files of one, without computing or writing.
+  /// Throws UserError.
   void
   validate_study(const std::filesystem::path &file);
 

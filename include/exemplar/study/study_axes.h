@@ -9,25 +9,25 @@
 
 namespace Exemplar
 {
-  /// Keys that change together, and the values that they take.
+  /// Keys that vary together, and their values.
   struct StudyAxis
   {
     std::vector<std::string>              keys;   ///< "Section/Key"
-    std::vector<std::vector<std::string>> values; ///< in each a value a key
+    std::vector<std::vector<std::string>> values; ///< for each choice, a value a key
 
-    /// The keys, or the values of one choice, in one piece of text.
+    /// The keys, or the values of one choice, as one text.
     std::string
     name() const;
     std::string
     text(unsigned int choice) const;
   };
 
-  /// Settings "Section/Key=value; ...", which stand at a place of the file. Throws UserError that
-  /// names the place.
+  /// Parse settings "Section/Key=value; ..." at a place in a file. Throws UserError with the place.
   std::vector<Assignment>
   parse_settings(const std::string &text, const std::string &place);
 
-  /// Axes "Section/Key: values | Key + Key: value + value, ...", likewise.
+  /// Parse axes "Section/Key: values | Key + Key: value + value, ...". Throws UserError with the
+  /// place.
   std::vector<StudyAxis>
   parse_axes(const std::string &text, const std::string &place);
 } // namespace Exemplar

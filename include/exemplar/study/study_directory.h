@@ -11,24 +11,24 @@
 
 namespace Exemplar
 {
-  /// Where a study writes, and the names of what it writes.
+  /// The output directory of a study, and the names of its files.
   class StudyDirectory
   {
   public:
     explicit StudyDirectory(std::filesystem::path path);
 
-    /// Make the directory and its parts, and keep other studies out of it as long as this object lives.
-    /// Throws UserError, with nothing changed, if a study is running there already, if the directory is none,
-    /// cannot be written or is not of a study, if something in it has the name of a study's
-    /// file but is none, or if one of `input_files` would be replaced or removed.
+    /// Make the directory and its subdirectories, and lock it for the lifetime of this object.
+    /// Throws UserError, with nothing changed, if a study is running there already, if it is no
+    /// directory, is write-protected or not of a study, if some file has the name of a study's file
+    /// but is none, or if one of `input_files` would be replaced or removed.
     void
     take(const std::set<std::filesystem::path> &input_files);
 
-    /// Write the study into the directory.
+    /// Write study.prm.
     void
     write_study(const std::string &study_text) const;
 
-    /// Remove the tables and the figure, which belong to earlier rows.
+    /// Remove the tables and the figure, which are out of date.
     void
     remove_results() const;
 
@@ -81,7 +81,7 @@ namespace Exemplar
     void
     refuse_directory_of_others() const;
 
-    /// Throws UserError for what has the name of a study's file but is none.
+    /// Throws UserError for a file that has the name of a study's file but is none.
     void
     refuse_what_is_foreign() const;
 
@@ -89,7 +89,7 @@ namespace Exemplar
     refuse_inputs(const std::set<std::filesystem::path> &input_files) const;
 
     std::filesystem::path                path;
-    std::unique_ptr<const DirectoryLock> taken; ///< null: it is not
+    std::unique_ptr<const DirectoryLock> taken; ///< lock of this process; null: none
   };
 } // namespace Exemplar
 

@@ -14,21 +14,21 @@
 
 namespace Exemplar
 {
-  /// What a study file says: a scene, and the settings with which it is run.
+  /// Contents of a study file: a scene, and the settings of its runs.
   struct Study
   {
-    /// Read the file and check what can be told without the scene. Throws UserError.
+    /// Read the file and check it as far as possible without the scene. Throws UserError.
     explicit Study(const std::filesystem::path &file);
 
-    /// The choices on the axes of every run, the first axis slowest.
+    /// The choices on the axes for every run, the first axis slowest.
     std::vector<std::vector<unsigned int>>
     choices() const;
 
-    /// What a run sets beyond the scene.
+    /// The settings of a run in addition to the scene.
     std::vector<Assignment>
     assignments(const std::vector<unsigned int> &choice) const;
 
-    /// The same of the reference run.
+    /// The settings of the reference run in addition to the scene.
     std::vector<Assignment>
     reference_assignments() const;
 
@@ -36,18 +36,18 @@ namespace Exemplar
     std::string             text;  ///< of the file, byte for byte
     std::filesystem::path   scene; ///< absolute
     std::vector<Assignment> base;
-    std::vector<Assignment> reference; ///< empty: there is none
+    std::vector<Assignment> reference; ///< empty: no reference
     std::vector<StudyAxis>  axes;
     std::string             scene_place, vary_place;
     unsigned int            repeats = 3;
     double                  timeout = 0.; ///< [s], 0: none
     unsigned int            threads = 1;
-    /// Of statistics.csv; their values at the end are columns of the table.
+    /// Columns of statistics.csv whose last values are columns of the table.
     std::vector<std::string> columns;
     std::string              columns_place;
-    /// Where the displacement at the end is a column [m].
+    /// Point whose displacement at the end [m] is a column; none: no such column.
     std::optional<dealii::Point<3>> probe;
-    std::string                     probe_place; ///< and its text
+    std::string                     probe_place; ///< its place in the file, and its text
   };
 
   /// All keys of a study file, for the reference.

@@ -11,25 +11,25 @@
 
 namespace Exemplar
 {
-  /// What statistics.csv says of a run as a whole; NaN where it says nothing.
+  /// Totals of a run from statistics.csv; NaN if unknown.
   struct RunStatistics
   {
-    double steps      = std::numeric_limits<double>::quiet_NaN(); ///< that were accepted
+    double steps      = std::numeric_limits<double>::quiet_NaN(); ///< number of accepted steps
     double iterations = std::numeric_limits<double>::quiet_NaN();
-    double residual   = std::numeric_limits<double>::quiet_NaN(); ///< the greatest
-    double kkt        = std::numeric_limits<double>::quiet_NaN(); ///< the greatest of the weights'
-    double min_det_F  = std::numeric_limits<double>::quiet_NaN();
-    double energy     = std::numeric_limits<double>::quiet_NaN(); ///< in total, at the end [J]
-    /// The greatest energy over all steps that neither was there at first nor was done as
-    /// work, over the greatest of what was there at first and the work [-].
+    double residual   = std::numeric_limits<double>::quiet_NaN(); ///< maximum over steps
+    double kkt = std::numeric_limits<double>::quiet_NaN(); ///< maximum of the weights' KKT residual
+    double min_det_F = std::numeric_limits<double>::quiet_NaN();
+    double energy    = std::numeric_limits<double>::quiet_NaN(); ///< total at the end [J]
+    /// Greatest total energy in excess of the initial energy and the work done, relative to the
+    /// greatest magnitude of either [-].
     double energy_growth = std::numeric_limits<double>::quiet_NaN();
-    /// By how much a step in which handles rest misses the bound of implicit Euler at most,
-    /// Psi_(n+1) + |v_(n+1) - v_n|^2_M/2 <= Psi_n + |v_n|^2_M/2 + work of loads, over the same
-    /// scale [-]; negative if all are within. NaN where there is no such bound.
+    /// Greatest excess of a step in which handles rest over the bound of implicit Euler, Psi_(n+1)
+    /// + |v_(n+1) - v_n|^2_M/2 <= Psi_n + |v_n|^2_M/2 + work of loads, relative to the same scale
+    /// [-]; negative if all steps satisfy it. NaN if the bound does not apply.
     double bound_excess = std::numeric_limits<double>::quiet_NaN();
   };
 
-  /// What summary.json says of a run; NaN: nothing.
+  /// Numbers of a run from summary.json; NaN if unknown.
   struct RunSummary
   {
     double factorizations   = std::numeric_limits<double>::quiet_NaN();
@@ -41,23 +41,23 @@ namespace Exemplar
   RunSummary
   read_run_summary(const std::filesystem::path &file);
 
-  /// Of a run in this directory; without statistics.csv all is empty.
+  /// The totals of a statistics.csv; all are NaN if it is missing.
   RunStatistics
   read_run_statistics(const std::filesystem::path &file);
 
-  /// The values of columns of statistics.csv in its last row; NaN where there are none.
+  /// The values in the last row of columns of a statistics.csv; NaN if missing.
   std::vector<double>
   read_last_values(const std::filesystem::path &file, const std::vector<std::string> &columns);
 
-  /// Distances between two poses of one body over the displacement of the reference.
+  /// Distances between two poses of a body, relative to the displacement of the reference.
   struct PoseErrors
   {
     double l2  = std::numeric_limits<double>::quiet_NaN(); ///< root mean square over the volume
-    double max = std::numeric_limits<double>::quiet_NaN(); ///< greatest over greatest
+    double max = std::numeric_limits<double>::quiet_NaN(); ///< ratio of maxima
   };
 
-  /// The nodes are matched by their rest positions, so the mesh of the reference may also be a
-  /// refinement of the other. NaN if it is neither.
+  /// Nodes are matched by their rest positions, so that the reference's mesh may be the same or a
+  /// refinement; NaN if it is neither.
   PoseErrors
   pose_errors(const FinalPose &pose, const FinalPose &reference);
 } // namespace Exemplar

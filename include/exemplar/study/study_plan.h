@@ -16,17 +16,17 @@ namespace Exemplar
   class StudyPlan
   {
   public:
-    /// Throws UserError if a key is unknown, if the reference is refused, if the parts of
-    /// the reference (without one, of the first run whose values are allowed) cannot be
-    /// built, or if no run has a column that is asked for. A run whose values are refused is
-    /// planned: a warning, and its row, will say so.
+    /// Throws UserError if a key is unknown, if the reference's values are refused, if the problem
+    /// of the reference (without one, of the first run whose values are allowed) cannot be built,
+    /// or if no run has a requested column. Runs whose values are refused stay in the plan; a
+    /// warning and their rows tell of it.
     explicit StudyPlan(const Study &study);
 
-    /// How many runs are to be made in all, repeats included.
+    /// Number of runs to be made, repeats included.
     unsigned int
     n_repeats() const;
 
-    /// Of all runs and the reference.
+    /// Names of all runs and of the reference.
     std::vector<std::string>
     names() const;
 
@@ -34,20 +34,20 @@ namespace Exemplar
     const std::string         scene_text;
     std::optional<PlannedRun> reference;
     std::vector<PlannedRun>   runs;
-    std::vector<std::string>  warnings; ///< of the parts that were built, and of refused runs
-    /// The study, its scene and all files that its runs name.
+    std::vector<std::string>  warnings; ///< of the problem that was built, and of refused runs
+    /// Files that the study depends on: its own, its scene's and those that runs name.
     std::set<std::filesystem::path> named_files;
 
   private:
-    /// Throws UserError where blanks have divided a value of a key, such as "one pass".
+    /// Throws UserError if blanks have split a value, such as "one pass", in two.
     void
     refuse_split_values() const;
 
-    /// Throws UserError if neither `there` nor any run has a column that the study asks for.
+    /// Throws UserError if neither `there` nor any run has a column that the study requests.
     void
     check_columns(const std::vector<std::string> &there) const;
 
-    std::set<std::string> refusals; ///< of runs whose values are not allowed
+    std::set<std::string> refusals; ///< messages on runs whose values are not allowed
   };
 } // namespace Exemplar
 

@@ -7,12 +7,12 @@
 
 namespace Exemplar
 {
-  /// The points that no other beats in both coordinates, by ascending first coordinate.
+  /// The points that no other dominates in both coordinates, by ascending first coordinate.
   std::vector<std::pair<double, double>>
   pareto_front(std::vector<std::pair<double, double>> points);
 
-  /// study.gnuplot and study.svg: error against run time. Nothing is written where there are
-  /// no errors. Returns a warning if gnuplot is missing or fails, else an empty text.
+  /// Write study.gnuplot and study.svg: error against run time; nothing if there are no errors.
+  /// Returns a warning if gnuplot is missing or fails, else an empty text.
   std::string
   plot_study(const StudyTable &table, const std::string &title, const StudyDirectory &directory);
 } // namespace Exemplar

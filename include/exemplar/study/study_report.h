@@ -8,8 +8,8 @@
 
 namespace Exemplar
 {
-  /// study.md: what was run, a table for each combination of the axes other than the numeric
-  /// one, with observed orders where there is a reference, and what failed.
+  /// Write study.md: the settings, a table for each combination on the axes other than the numeric
+  /// one, with observed orders if there is a reference, and the failures.
   void
   write_study_report(const Study                 &study,
                      const StudyTable            &table,

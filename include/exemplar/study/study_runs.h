@@ -13,12 +13,12 @@
 
 namespace Exemplar
 {
-  /// How a run ended, over all its repeats.
+  /// Outcome of a run over all its repeats.
   struct StudyRecord
   {
-    std::string         status; ///< the program's word, or refused, crash or timeout
+    std::string         status; ///< as in summary.json, or refused, crash or timeout
     int                 exit_status = 0;
-    std::string         message; ///< what the program said of a failure
+    std::string         message; ///< the program's message on a failure
     std::vector<double> seconds; ///< of each repeat
     double              timeout = 0.;
 
@@ -29,16 +29,16 @@ namespace Exemplar
     }
   };
 
-  /// A run to be made.
+  /// A run of the plan.
   struct PlannedRun
   {
-    std::string               name; ///< follows from all that the results depend on
+    std::string               name; ///< hash of all data that the results depend on
     std::vector<unsigned int> choice;
     std::vector<Assignment>   assignments;
   };
 
-  /// Names of runs: 16 digits of the SHA-256 of the program, the scene, the settings and the
-  /// input files. A change of any of them gives another name, so results never mix.
+  /// Names of runs: 16 digits of the SHA-256 of the program, the scene, the settings and the input
+  /// files. A change of any of them gives another name, so that results never mix.
   class RunNames
   {
   public:
@@ -48,7 +48,7 @@ namespace Exemplar
     name(const std::vector<Assignment>            &assignments,
          const std::vector<std::filesystem::path> &input_files);
 
-    /// Whether a name is one of these.
+    /// Whether a text has the form of a name.
     static bool
     is_name(const std::string &name);
 
@@ -61,21 +61,21 @@ namespace Exemplar
   class StudyRuns
   {
   public:
-    /// The name of the directory in which a run is made.
+    /// The directory in which the current run is made.
     static const std::string scratch_name;
 
-    /// What `options` say of runs.
+    /// Takes the settings for runs from `options`.
     StudyRuns(std::filesystem::path directory, const Study &study, const StudyOptions &options);
 
-    /// Throws UserError if something stands where a run is to be made that no run has left.
+    /// Throws UserError if a run's place is taken by files that no run has left.
     void
     require_room_for(const std::vector<std::string> &names) const;
 
-    /// Whether as many repeats are there as are asked for. What fails is not repeated.
+    /// Whether `repeats` repeats exist. Failed runs are not repeated.
     bool
     is_done(const std::string &name, unsigned int repeats) const;
 
-    /// Run once more, in a process of its own. Throws Interrupted, and the run is as it was.
+    /// Run once more, in a process of its own. Throws Interrupted, with the run as before.
     const StudyRecord &
     run(const PlannedRun &planned);
 
@@ -92,24 +92,24 @@ namespace Exemplar
       return directory / name;
     }
 
-    /// Runs that are there, but not among `names`.
+    /// Runs on disk that are not among `names`.
     std::vector<std::filesystem::path>
     others(const std::vector<std::string> &names) const;
 
-    /// Remove what a run has left. Throws UserError, with nothing removed, if there is something else, too.
+    /// Remove a run's files. Throws UserError, with nothing removed, if there are other files.
     void
     remove(const std::filesystem::path &run) const;
 
-    /// Remove what a study has left that was killed while it made or removed a run.
+    /// Remove the remains of a study that was killed while making or removing a run.
     void
     empty_scratch() const;
 
   private:
-    /// Read the record that an earlier call has left.
+    /// Read the record of a run on disk.
     void
     load(const std::string &name);
 
-    /// Run in the directory `scratch()`; its record, with one repeat.
+    /// Run in the directory scratch(); returns the record of one repeat.
     StudyRecord
     run_in_scratch(const PlannedRun &planned) const;
 

@@ -13,14 +13,14 @@
 
 namespace Exemplar
 {
-  /// How long the repeats of a run took [s].
+  /// Times of the repeats of a run [s].
   struct RunSeconds
   {
     double median  = std::numeric_limits<double>::quiet_NaN();
     double minimum = std::numeric_limits<double>::quiet_NaN();
   };
 
-  /// What is known of a run of a study; NaN what is not.
+  /// Results of a run of a study; NaN if unknown.
   struct StudyRow
   {
     std::vector<unsigned int> choice; ///< on each axis
@@ -34,7 +34,7 @@ namespace Exemplar
     PoseErrors                errors;
     RunStatistics             statistics;
     RunSummary                summary;
-    std::vector<double>       extra; ///< in the columns that the study asks for
+    std::vector<double>       extra; ///< values of the columns that the study requests
   };
 
   /// The rows of a study in the order of its combinations.
@@ -46,7 +46,7 @@ namespace Exemplar
     std::vector<std::string> extra_columns = {};
   };
 
-  /// The columns that a study asks for.
+  /// The columns that a study requests.
   std::vector<std::string>
   extra_columns_of(const Study &study);
 
@@ -54,33 +54,32 @@ namespace Exemplar
   struct StudyLine
   {
     std::vector<unsigned int>     choice; ///< on the other axes
-    std::string                   title;  ///< the values there
+    std::string                   title;  ///< their values
     std::vector<const StudyRow *> rows;
   };
 
-  /// The number that a choice stands for: of numbers separated by commas, such as Mesh/Box
-  /// cells, their geometric mean. Of keys that change together the first counts. NaN if it is
-  /// none.
+  /// The number of a choice; for numbers separated by commas, such as Mesh/Box cells, their
+  /// geometric mean. Of keys that vary together the first counts. NaN if it is no number.
   double
   number_of(const StudyAxis &axis, unsigned int choice);
 
-  /// The first axis with two different numbers or more, if there is one.
+  /// The first axis with at least two different numbers; nothing if there is none.
   std::optional<unsigned int>
   numeric_axis(const std::vector<StudyAxis> &axes);
 
-  /// The rows by line; without a numeric axis all are one line.
+  /// The rows by line; a single line if there is no numeric axis.
   std::vector<StudyLine>
   lines_of(const StudyTable &table);
 
-  /// p in error ~ number^p between two points; NaN where it is not defined.
+  /// p in error ~ number^p between two points; NaN if undefined.
   double
   observed_order(double error_1, double error_2, double number_1, double number_2);
 
-  /// Throws UserError if study.csv has a column of such a name already.
+  /// Throws UserError if study.csv has its own column of such a name.
   void
   check_extra_columns(const Study &study);
 
-  /// study.csv: a line a row.
+  /// Write study.csv, a line a row.
   void
   write_study_csv(const StudyTable &table, const std::filesystem::path &file);
 } // namespace Exemplar

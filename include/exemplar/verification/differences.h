@@ -12,18 +12,19 @@
 
 namespace Exemplar::Verification
 {
-  /// Whether rotations follow the positions or are kept: then the energy is quadratic.
+  /// Whether rotations follow the positions, or are kept so that the energy is quadratic.
   enum class Rotations
   {
     followed,
     kept
   };
 
-  /// Derivatives of the energy of the cells at a state, by the program and by differences.
+  /// Derivatives of the cells' energy at a state: errors of the program's relative to finite
+  /// differences.
   class Differences
   {
   public:
-    /// `weights` [-] are taken if the problem has examples.
+    /// `weights` [-] are used if the problem has examples.
     Differences(Problem                      &problem,
                 const dealii::Vector<double> &positions,
                 const std::vector<double>    &weights,
@@ -41,7 +42,7 @@ namespace Exemplar::Verification
           columns);
     }
 
-    /// Greatest error of the forces.
+    /// Greatest error of the gradient, relative to 1 + its greatest entry.
     double
     of_gradient() const
     {
@@ -55,20 +56,20 @@ namespace Exemplar::Verification
       return maximum / (1. + max_entry(at.gradient.begin(), at.gradient.end()));
     }
 
-    /// Error of the slope of the energy along the forces themselves: |f|.
+    /// Relative error of the slope of the energy along its gradient f, which is |f|.
     double
     along_gradient() const
     {
       const double norm = at.gradient.l2_norm();
       if (norm < 1e-12)
-        return norm; // at rest there is no such direction
+        return norm; // no such direction at rest
       dealii::Vector<double> direction = at.gradient;
       direction /= norm;
       const double slope = derivative([&](const double h) { return shifted(direction, h).energy; });
       return std::abs(slope - norm) / (1. + norm);
     }
 
-    /// Greatest error of the entries of the tangent.
+    /// Greatest error of the entries of the tangent, relative to the greatest entry.
     double
     of_tangent() const
     {
@@ -86,7 +87,8 @@ namespace Exemplar::Verification
       return maximum / scale;
     }
 
-    /// Greatest error of the derivatives by the weights and of the coupling -G.
+    /// Greatest error of the derivatives by the weights and of the coupling -G, relative to 1 + the
+    /// greatest entry of the gradient.
     double
     of_weights() const
     {

@@ -8,27 +8,26 @@
 #include <string>
 #include <vector>
 
-// Reference cases: what the program computes against closed forms, published numbers,
-// finite differences and second methods. Tolerances are those that theory or the source
-// of the expected number allows, never what happens to come out.
+// Reference cases: computed numbers against closed forms, published numbers, finite differences and
+// second methods. Tolerances follow from theory or the source of the expected number, never from
+// the result.
 
 namespace Exemplar
 {
-  /// Run the cases of these names, or all, and print a line for each number: PASS or FAIL,
-  /// case (what), expected, got, tolerance. Returns the exit status: 1 if a number is off.
-  /// Throws UserError for an unknown name, before anything is run. Several processes must all call
-  /// it: the root computes the cases while the others wait, but those of bodies that they share
-  /// all compute together, and the status is the root's.
+  /// Run the cases of these names, or all, and print a line for each number: PASS or FAIL, case
+  /// (what), expected, got, tolerance. Returns the exit status: 1 if a number fails. Throws
+  /// UserError for an unknown name before anything is run. Collective: the root computes most cases
+  /// while the others wait, but all compute those of shared bodies; the status is the root's.
   int
   verify(const std::vector<std::string> &names, const ProcessGroup &processes);
 
-  /// Print the cases, a line each: name, and what it compares with which source.
+  /// Print the cases, a line each: name, compared quantity and source.
   void
   list_verification_cases(const ProcessGroup &processes);
 
   namespace Verification
   {
-    /// How a number that was found is held against the expected one.
+    /// Comparison of a computed number with the expected one.
     enum class Comparison
     {
       absolute, ///< |got - expected| <= tolerance
@@ -37,7 +36,7 @@ namespace Exemplar
       at_least  ///< got >= expected
     };
 
-    /// A number that a case found, and what it should be.
+    /// A computed number, and its expected value.
     struct Measurement
     {
       std::string what;
@@ -50,16 +49,16 @@ namespace Exemplar
       passes() const;
     };
 
-    /// A reference case: what it is, and how its numbers are found.
+    /// A reference case: its description and its computation.
     struct Case
     {
       std::string                               name;        ///< in kebab-case
       std::string                               description; ///< with the source of the numbers
-      std::function<std::vector<Measurement>()> measure;     ///< may throw: the case has failed
-      bool is_shared = false; ///< all processes compute it together; the root's numbers count
+      std::function<std::vector<Measurement>()> measure;     ///< may throw, which fails the case
+      bool is_shared = false; ///< all processes compute it; the root's numbers count
     };
 
-    // The cases by subject, each from a file of its own.
+    // The cases by subject, one file each.
     std::vector<Case>
     kernel_cases();
     std::vector<Case>
@@ -77,7 +76,7 @@ namespace Exemplar
     std::vector<Case>
     example_cases();
 
-    /// Of several processes alone.
+    /// Cases that need several processes.
     std::vector<Case>
     process_cases();
   } // namespace Verification

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-// What reference cases and unit tests build their problems from.
+// Helpers by which reference cases and unit tests make their problems.
 
 namespace Exemplar::Verification
 {
-  /// All steps that are left; throws SolverFailure unless each succeeds.
+  /// Solve all remaining steps; throws SolverFailure unless each succeeds.
   State
   solve_all_steps(Problem &problem);
 
@@ -21,12 +21,12 @@ namespace Exemplar::Verification
   class Scene
   {
   public:
-    /// What `inputs` hold need not be in files.
+    /// `inputs` stand in for files.
     explicit Scene(const std::string              &text,
                    const std::vector<std::string> &overrides = {},
                    Inputs                          inputs    = {});
 
-    /// As solve_all_steps().
+    /// See solve_all_steps().
     State
     solve();
 
@@ -36,7 +36,7 @@ namespace Exemplar::Verification
     Scene(const CompleteScene &parameters, Inputs inputs);
   };
 
-  /// The generated box with its nodes moved.
+  /// The generated box with its nodes mapped.
   Inputs
   moved_box(const std::array<double, 3>                                     &size,
             const std::array<unsigned int, 3>                               &n_cells,
@@ -82,11 +82,11 @@ namespace Exemplar::Verification
   Vector3<double>
   node_vector(const dealii::Vector<double> &field, unsigned int node);
 
-  /// Sum over the nodes.
+  /// Sum of a field over the nodes.
   Vector3<double>
   total(const dealii::Vector<double> &field);
 
-  /// Sum over the nodes of x cross f.
+  /// Sum of x cross f over the nodes.
   Vector3<double>
   torque(const dealii::Vector<double> &positions, const dealii::Vector<double> &forces);
 
@@ -97,11 +97,11 @@ namespace Exemplar::Verification
   double
   max_difference(const dealii::Vector<double> &a, const dealii::Vector<double> &b);
 
-  /// Mean displacement of the nodes of the mesh that a selection holds.
+  /// Mean displacement of the nodes in a selection.
   dealii::Tensor<1, 3>
   mean_displacement(const Problem &problem, const State &state, const std::string &selection);
 
-  /// Evaluate at positions and weights of one's own, with the rotations of the positions.
+  /// Evaluate at given positions and weights, with the rotations at the positions.
   ElasticEvaluation
   evaluate(Problem                      &problem,
            const dealii::Vector<double> &positions,
@@ -116,12 +116,12 @@ namespace Exemplar::Verification
     double
     order() const;
 
-    /// The limit if the error has even powers of h, as on uniform meshes of a smooth
-    /// problem: Romberg's extrapolation, exact for h^2 and h^4.
+    /// The limit if the error has even powers of h, as on uniform meshes for smooth solutions:
+    /// Romberg's extrapolation, exact for h^2 and h^4.
     double
     smooth_limit() const;
 
-    /// The limit of an error C h^p of whatever order, as at a singular corner.
+    /// The limit if the error is C h^p with the observed p, as at a singular corner.
     double
     limit() const;
   };

@@ -14,8 +14,8 @@ namespace Exemplar
 {
   namespace
   {
-    /// A residual of the adjoint equations, relative to their right side, at which they are solved, and
-    /// one beyond which they are not.
+    /// Relative residuals of the adjoint equations: accepted at once, and too large after all
+    /// corrections.
     constexpr double solved = 1e-9, unsolved = 1e-7;
 
     constexpr unsigned int max_corrections = 96;
@@ -26,8 +26,8 @@ namespace Exemplar
       return { derivatives.by_positions, derivatives.by_weights };
     }
 
-    /// Go on from a solution that an approximate factor has given, until its derivatives are right; returns
-    /// what is left.
+    /// Correct the solution of an approximate factor by conjugate residuals with exact derivatives;
+    /// returns the relative residual.
     double
     correct(AdjointSystem         &system,
             const Direction       &by_state,

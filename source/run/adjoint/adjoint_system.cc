@@ -11,7 +11,8 @@ namespace Exemplar
 {
   namespace
   {
-    /// UMFPACK has no factor of the positions' part alone.
+    /// UMFPACK factorises the bordered matrix as a whole and cannot solve with the positions' block
+    /// alone.
     SolverParameters
     solver_for(const Problem &problem)
     {
@@ -61,8 +62,8 @@ namespace Exemplar
     make_weight_matrix();
   }
 
-  /// The exact tangent may be indefinite in cells that Eq. (16) guards; the convex one is near enough there to
-  /// begin with.
+  /// The exact tangent may be indefinite in cells that Eq. (16) guards; the convexified one is then
+  /// a good enough preconditioner.
   void
   AdjointSystem::factorize()
   {
@@ -193,7 +194,7 @@ namespace Exemplar
     return sums.empty() ? 0. : *std::max_element(sums.begin(), sums.end());
   }
 
-  /// The region's mean, over the weights at no bound.
+  /// The multiplier is the region's mean over the weights at no bound.
   void
   AdjointSystem::subtract_multipliers(Direction &rest) const
   {
@@ -212,7 +213,8 @@ namespace Exemplar
     }
   }
 
-  /// The inverse of the Schur complement, bordered by the sums; of a weight at a bound, 1 on the diagonal.
+  /// The inverse of the Schur complement, bordered by the sums; rows of weights at a bound are
+  /// multiples of the identity's.
   void
   AdjointSystem::make_weight_matrix()
   {

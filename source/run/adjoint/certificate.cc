@@ -22,8 +22,8 @@ namespace Exemplar
     problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
     const Direction     adjoint = solve_adjoint(problem, evaluation, by_state).direction;
     const WeightMemory &memory  = problem.examples.weights.get_memory();
-    // a is zero on held nodes, and b adds up to zero in each region, so that multipliers drop out; b is zero
-    // where the slopes to both sides differ
+    // a is zero on held nodes and b sums to zero in each region, so that multipliers drop out; b is
+    // zero where one-sided slopes differ
     double slope = adjoint.positions * evaluation.gradient;
     for (std::size_t i = 0; i < evaluation.elastic.weight_gradient.size(); ++i)
       slope

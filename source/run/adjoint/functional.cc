@@ -33,7 +33,7 @@ namespace Exemplar
                std::vector<double>(problem.state.weights.size(), 0.) };
     }
 
-    /// Without weights, Psi is the elastic energy.
+    /// Psi with zero weights is the elastic energy.
     FunctionalValue
     elastic_energy(Problem &problem)
     {
@@ -46,7 +46,8 @@ namespace Exemplar
       return result;
     }
 
-    /// Derivatives of a sum of dPhi/dx are those of the slope along 1 at what is summed.
+    /// Derivatives of a sum of entries of dPhi/dx are those of the slope along their indicator
+    /// vector.
     Functional
     reaction(const unsigned int handle, const unsigned int component)
     {
@@ -108,7 +109,7 @@ namespace Exemplar
       {
         is_of_nodes = !selection.is_of_surface() && selection.file().empty();
       }
-      catch (const UserError &) // a text that no handle could have either
+      catch (const UserError &) // a text that handles refuse, too
       {
       }
       if (!is_of_nodes)

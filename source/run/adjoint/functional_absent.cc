@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands for functional.cc, and the gradients that it needs, in the build of ./demo.sh.
+// Stubs in place of functional.cc and its gradients in the build of ./demo.sh.
 #include <exemplar/base/errors.h>
 #include <exemplar/base/whole_program.h>
 #include <exemplar/run/adjoint/functional.h>

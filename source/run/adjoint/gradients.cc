@@ -12,11 +12,11 @@ namespace Exemplar
 {
   namespace
   {
-    /// Of a weight at its bound the multiplier, and else the weight, below which a small change would
-    /// move it off the bound or onto it.
+    /// Threshold for weakly active: of a weight at its bound, the relative multiplier; else its
+    /// distance to the bound.
     constexpr double weak = 1e-6;
 
-    /// With the slopes of the potential to both sides, and the multiplier in them.
+    /// Whether a weight is weakly active; `slope` is the potential's, multiplier included.
     bool
     is_weak(const WeightMemory &memory,
             const bool          is_bounded,
@@ -28,7 +28,7 @@ namespace Exemplar
       const auto [up, down] = memory.slopes(weight, w, slope);
       if (is_bounded && !(w > 0.))
         return up < weak * scale;
-      if (up > down) // it stays where it was
+      if (up > down) // memory keeps the weight in place
         return std::min(up, -down) < weak * scale;
       return (is_bounded && w < weak)
              || memory.slopes(weight, w + weak, 0.).up != memory.slopes(weight, w - weak, 0.).up;

@@ -23,7 +23,7 @@ namespace Exemplar
     const bool         is_first = i == 0;
     const Vector      &v        = is_first ? initial.velocities : steps.back().velocities;
     const double       time     = is_first ? initial.time : steps.back().time;
-    // of two states before a step the time scheme looks at the earlier one, too
+    // BDF2 uses two states before a step, so that the earlier one must be unchanged, too
     const bool has_its_past = !has_two_steps || is_first
                               || (start.previous_step == steps.back().size
                                   && start.previous_positions == positions_before(i - 1));

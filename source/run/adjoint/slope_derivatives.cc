@@ -8,7 +8,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// The part of a slope that is elastic: points are drawn to what the weights make of the examples' strains.
+    /// The elastic part of a slope: the target of a point is the blend of the examples' strains.
     class ElasticPart
     {
     public:
@@ -64,7 +64,8 @@ namespace Exemplar
         return contract(F, F);
       }
 
-      /// By weights, strains of examples, and the poses that say where guards of patches begin.
+      /// Adds derivatives by weights, examples' strains, and poses that set bounds of the patches'
+      /// guards.
       void
       add_wish(const unsigned int    point,
                const Wish           &by_wish,

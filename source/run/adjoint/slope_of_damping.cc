@@ -7,14 +7,14 @@ namespace Exemplar
 {
   namespace
   {
-    /// The part of a slope that is stiffness damping: points are drawn to the strains of earlier positions.
+    /// The stiffness damping of a slope: the target of a point is the strain at earlier positions.
     class DampingPart
     {
     public:
       template <typename Cell, typename Number>
       using Evaluation = DampingPoint<Cell, Number>;
 
-      /// With s of Eq. (22), in a step with these earlier positions.
+      /// Takes s of Eq. (22) and the earlier positions of the step.
       DampingPart(const Problem                 &problem,
                   const ExampleStrains          &of_examples,
                   std::vector<WeightedPositions> history,
@@ -74,7 +74,7 @@ namespace Exemplar
         return 0.;
       }
 
-      /// By the earlier positions.
+      /// Adds derivatives by the earlier positions.
       void
       add_wish(const unsigned int point,
                const Wish        &by_wish,
@@ -83,7 +83,7 @@ namespace Exemplar
                Matrix3<double> &by_gradients)
       {
         if (shares[point] == 0.)
-          return; // rotations may be ambiguous there, and its patch is left out, too
+          return; // rotations may be ambiguous there; its patch is left out, too
         for (std::size_t m = 0; m < history.size(); ++m)
         {
           const Matrix3<double> F    = fe_space.deformation_gradient(point, *history[m].positions);
@@ -107,7 +107,7 @@ namespace Exemplar
       }
 
     private:
-      /// As StrainDamping does: points that a guard held are left out, and their patches.
+      /// Skips points that a guard held, and their patches, as StrainDamping does.
       void
       look_back(const unsigned int point, const WeightedPositions &past)
       {
@@ -121,7 +121,7 @@ namespace Exemplar
           shares[point] = 0.;
       }
 
-      static constexpr std::size_t n_parts = 16; ///< of the loop, whatever the threads
+      static constexpr std::size_t n_parts = 16; ///< parts of the loop, whatever the threads
 
       const Problem                       &problem;
       const ExampleStrains                &of_examples;
@@ -129,7 +129,7 @@ namespace Exemplar
       const std::vector<WeightedPositions> history;
       const LawsOfCells                   &laws;
       std::vector<Vector>                  by_past;
-      std::vector<double>                  shares, shares_of_patches; ///< s, or 0
+      std::vector<double>                  shares, shares_of_patches; ///< s, or 0 where left out
       std::vector<Matrix3<double>>         strains;                   ///< sum c_m e(x_m)
     };
   } // namespace

@@ -8,7 +8,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// Of the nodes of a cell with a mass of 1.
+    /// Mass matrix of the nodes of a cell with a mass of 1 (scalar).
     dealii::FullMatrix<double>
     unit_matrix(const FESpace &fe_space, const MassMatrix kind)
     {
@@ -22,7 +22,7 @@ namespace Exemplar
       return m;
     }
 
-    /// sum_ij m_ij a_i.q_j over these nodes.
+    /// sum_ij m_ij a_i.q_j over the nodes of a cell.
     double
     product(const dealii::ArrayView<const unsigned int> &nodes,
             const dealii::FullMatrix<double>            &m,

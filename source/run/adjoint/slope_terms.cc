@@ -31,8 +31,7 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
       for (int v = 0; v < 3; ++v)
         edges[i][v] = X[3 * nodes[v + 1] + i] - X[3 * nodes[0] + i];
-    const Matrix3<double> cofactor
-        = cofactors(edges); // its columns over the determinant are grad L_v
+    const Matrix3<double> cofactor = cofactors(edges); // columns over the determinant: grad L_v
     const Matrix3<double> forces
         = combine(1. / determinant(edges), by_gradient * cofactor, 0., cofactor);
     for (unsigned int c = 0; c < 3; ++c)
@@ -66,7 +65,7 @@ namespace Exemplar
     const std::vector<double> &w = problem.state.weights, &b = direction.weights;
     const WeightMemory        &memory = problem.examples.weights.get_memory();
     std::vector<double>        products(fractions.size(), 0.); // w.b of each region
-    std::vector<double>        prices(fractions.size(), 0.);   // of moving along b, over the volume
+    std::vector<double>        prices(fractions.size(), 0.);   // of moving along b, per volume
     double                     mean = 0.;
     for (unsigned int weight = 0; weight < poses.n_weights(); ++weight)
     {
@@ -115,7 +114,7 @@ namespace Exemplar
       const double volume = fe_space.cell_volume(cell);
       const double mass   = volume * problem.body.material.density(cell);
       const auto   nodes  = fe_space.nodes(cell);
-      double       work   = 0.; // of gravity on a unit of mass, along the direction
+      double       work   = 0.; // of gravity on a unit mass, along the direction
       for (unsigned int a = 0; a < nodes.size(); ++a)
         for (unsigned int c = 0; c < 3; ++c)
         {

@@ -10,20 +10,20 @@
 #include <algorithm>
 #include <array>
 
-// From the last step to the first. What J depends on through later steps is carried back: the derivatives of J
-// by the positions and velocities of the two states before a step.
+// Backward sweep from the last step to the first, which carries the derivatives of J by the
+// positions and velocities of the two states before a step, through all later steps.
 
 namespace Exemplar
 {
   namespace
   {
-    /// A problem that stands at other states for a while, and then where it stood.
+    /// Lets the problem stand at other states; the destructor restores its own.
     class Visit
     {
     public:
       explicit Visit(Problem &problem) : problem(problem)
       {
-        std::swap(own_state, problem.state); // arrays of others may be in its memory
+        std::swap(own_state, problem.state); // a copy would leave views of others dangling
       }
 
       Visit(const Visit &) = delete;
@@ -34,13 +34,13 @@ namespace Exemplar
       ~Visit()
       {
         std::swap(own_state, problem.state);
-        Evaluation evaluation; // for the rotations alone, of a state that was evaluated before
+        Evaluation evaluation; // discarded; evaluated to restore the rotations
         problem.potential.leave_step(problem.state);
         problem.potential.set_time(problem.state.time, problem.state);
         problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
       }
 
-      /// To the end of a step from `start`; it is evaluated there.
+      /// Set the state at the end of a step from `start`, and evaluate there.
       void
       go_to(const State &start, const RecordedStep &step, Evaluation &evaluation)
       {
@@ -89,7 +89,7 @@ namespace Exemplar
         to.by_gravity[c] += some.by_gravity[c];
     }
 
-    /// Derivatives of J by a state, through later steps, too.
+    /// Derivatives of J by a state, through later steps.
     struct Carried
     {
       Vector positions, velocities;
@@ -151,7 +151,7 @@ namespace Exemplar
             result.held_nodes.push_back(dof / 3);
       }
 
-      /// Of steps of which J does not depend there are none, but fields of their sizes.
+      /// If J depends on no step: zeros of the right sizes.
       SlopeDerivatives
       sums()
       {
@@ -168,7 +168,7 @@ namespace Exemplar
         const State start = steps.start(i);
         Evaluation  evaluation;
         visit.go_to(start, steps.step(i), evaluation);
-        if (evaluation.elastic.guarded_cells > 0) // elsewhere rotations are unique
+        if (evaluation.elastic.guarded_cells > 0) // rotations are unique elsewhere
           require_rotations(problem);
         require_solved_step(problem, evaluation, i);
         const std::vector<unsigned int> weak = weakly_active(problem, evaluation);
@@ -203,7 +203,8 @@ namespace Exemplar
         return std::all_of(numbers.begin(), numbers.end(), [](double x) { return x == 0.; });
       }
 
-      /// Of J by the state at the end of a step, whose velocities depend on its positions.
+      /// Derivatives of J by the state at the end of step i, whose velocities depend on its
+      /// positions.
       Direction
       take_derivatives(const unsigned int i)
       {
@@ -235,7 +236,7 @@ namespace Exemplar
         return slope;
       }
 
-      /// To the states before this step.
+      /// Carry the derivatives back to the states before this step.
       void
       carry(const MotionDerivatives &of_motion)
       {

@@ -35,7 +35,7 @@ namespace Exemplar
       return out.str();
     }
 
-    /// Writes a surface that the body carries, in metres as the body's frames.
+    /// Writes a carried surface, in metres as the body's frames.
     class CarriedVtuWriter : public FrameWriter
     {
     public:
@@ -77,7 +77,7 @@ namespace Exemplar
 
     private:
       const std::vector<SurfaceMesh::Vertex> rest;
-      const double                           scale; ///< makes metres of the file's unit
+      const double                           scale; ///< metres per unit of the file
       const std::string                      piece, polygons;
     };
   } // namespace

@@ -9,7 +9,7 @@
 
 namespace Exemplar
 {
-  // A new format is a file with its writer, a declaration here and a line in the table.
+  // To add a format: a file with its writer, a declaration here and a line in the table.
   std::unique_ptr<const FrameWriter>
   make_vtu_writer(const FrameSubject &subject);
   std::unique_ptr<const FrameWriter>
@@ -31,7 +31,7 @@ namespace Exemplar
 
   namespace
   {
-    /// What a name adds to that of a file.
+    /// Suffix of file names for a carried surface.
     std::string
     with_line(const std::string &carried)
     {
@@ -53,7 +53,7 @@ namespace Exemplar
       { "obj", "", make_obj_writer, "# a frame by exemplar\n", "", true },
       { "ply", "", make_ply_writer,
         "ply\nformat binary_little_endian 1.0\ncomment a frame by exemplar\n", "", true },
-      // one frame; an animation has fewer than 2^24
+      // frames have a count of 1; animations fewer than 2^24
       { "mdd", "animation.mdd", make_mdd_writer, "\0\0\0\1"s, "\0"s, true },
       { "pc2", "animation.pc2", make_pc2_writer, "POINTCACHE2\0\1\0\0\0"s, "POINTCACHE2\0\1\0\0\0"s,
         true },
@@ -115,7 +115,7 @@ namespace Exemplar
   FrameFormat::step_of(const std::string &file) const
   {
     const std::string       number = "([0-9]{4}|[1-9][0-9]{4,8})";
-    static const std::regex frame("frame_" + number + "(_.+)?\\.([^.]+)"); // or a piece
+    static const std::regex frame("frame_" + number + "(_.+)?\\.([^.]+)"); // or a piece of one
     std::smatch             parts;
     if (std::regex_match(file, parts, frame)
         && (parts[3] == name || (has_pieces() && parts[3] == joint_ending && !parts[2].matched)))

@@ -29,7 +29,7 @@ namespace Exemplar
       }
 
     private:
-      const std::string faces; ///< what follows the vertices; no frame changes it
+      const std::string faces; ///< all lines after the vertices; the same in all frames
     };
   } // namespace
 

@@ -13,8 +13,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// The numbers that stand for the groups of faces: their names, if all are such numbers, else from
-    /// 1 on.
+    /// Numbers for groups of faces: their names if all are numbers, else 1, 2, ...
     std::vector<std::int32_t>
     group_numbers(const SurfaceMesh &surface)
     {
@@ -32,7 +31,8 @@ namespace Exemplar
       return numbers;
     }
 
-    /// A count of corners takes as few bytes as the largest face allows: some readers know bytes only.
+    /// Whether all faces have fewer than 256 corners: counts are then bytes, as some readers
+    /// require.
     bool
     counts_are_bytes(const SurfaceMesh &surface)
     {
@@ -103,7 +103,7 @@ namespace Exemplar
       }
 
     private:
-      const std::string head, faces; ///< no frame changes them
+      const std::string head, faces; ///< the same in all frames
     };
   } // namespace
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Formats: the readers of Blender's Mesh Cache modifier, MOD_meshcache_mdd.c and MOD_meshcache_pc2.c, which go
-// back to NewTek's MDD and to 3ds Max's Point Cache 2.
+// Formats: the readers of Blender's Mesh Cache modifier, MOD_meshcache_mdd.c and
+// MOD_meshcache_pc2.c, which go back to NewTek's MDD and to 3ds Max's Point Cache 2.
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/run/frames/frame_formats.h>
 #include <exemplar/run/frames/frame_writer.h>
@@ -14,7 +14,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// Frames, points, the time of each frame.
+    /// Header of MDD: numbers of frames and points, times of frames.
     struct Mdd
     {
       static constexpr ByteOrder order = ByteOrder::big;
@@ -31,7 +31,7 @@ namespace Exemplar
       }
     };
 
-    /// A name, a version, points, the first frame, frames a sample, samples.
+    /// Header of PC2: signature, version, points, first frame, frames per sample, samples.
     struct Pc2
     {
       static constexpr ByteOrder order = ByteOrder::little;
@@ -39,7 +39,7 @@ namespace Exemplar
       static std::string
       head(const std::size_t n_points, const std::vector<double> &times)
       {
-        std::string bytes("POINTCACHE2", 12); // with a zero
+        std::string bytes("POINTCACHE2", 12); // with its final zero
         append_raw<order>(bytes, std::int32_t{ 1 });
         append_raw<order>(bytes, static_cast<std::int32_t>(n_points));
         append_raw<order>(bytes, 0.f);
@@ -49,8 +49,8 @@ namespace Exemplar
       }
     };
 
-    /// Writes the places of the surface's vertices, three floats each, behind a head. A frame is a
-    /// cache of one; the animation joins the frames.
+    /// Writes a header and the vertices' positions, three floats each. A frame is a cache of one
+    /// sample; the animation concatenates the frames.
     template <typename Format>
     class PointCacheWriter : public FrameWriter
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Format: OpenUSD, "USDA file format" and the schemas UsdGeomMesh, UsdGeomSubset and UsdGeomPrimvar.
+// Format: OpenUSD, "USDA file format" and schemas UsdGeomMesh, UsdGeomSubset and UsdGeomPrimvar.
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/run/frames/frame_formats.h>
@@ -36,7 +36,7 @@ namespace Exemplar
       text += ')';
     }
 
-    /// "[a, b, ...]" of what `append` makes of each item.
+    /// "[a, b, ...]" with each item's text written by `append`.
     template <typename Items, typename Append>
     std::string
     list_of(const Items &items, const Append &append)
@@ -58,7 +58,7 @@ namespace Exemplar
                      { fmt::format_to(std::back_inserter(text), "{}", number); });
     }
 
-    /// A name that USD allows for a prim and that is not among `taken`, to which it is added.
+    /// A valid USD prim name that is not in `taken`; adds it there.
     std::string
     prim_name(const std::string &name, std::set<std::string> &taken)
     {
@@ -73,7 +73,7 @@ namespace Exemplar
       return unique;
     }
 
-    /// The name of the body's surface, or of one that it carries.
+    /// The prim name of the body's surface, or of a carried one.
     std::string
     prim_of(const std::string &carried)
     {
@@ -81,7 +81,7 @@ namespace Exemplar
       return carried.empty() ? "surface" : prim_name(carried, taken);
     }
 
-    /// The corners' points of texture; empty unless all faces have them.
+    /// Texture coordinates of the faces' corners; empty unless all faces have them.
     std::string
     texture_of(const SurfaceMesh &surface)
     {
@@ -106,7 +106,7 @@ namespace Exemplar
              + list_of_numbers(indices) + '\n';
     }
 
-    /// Those of faces, as subsets.
+    /// The groups of faces, as GeomSubset prims.
     std::string
     groups_of(const SurfaceMesh &surface)
     {
@@ -123,7 +123,7 @@ namespace Exemplar
       return text;
     }
 
-    /// What does not change, between the metadata and the samples in time, and after them.
+    /// The attributes that are constant in time, faces and texture coordinates.
     std::string
     topology_of(const SurfaceMesh &surface)
     {
@@ -139,7 +139,7 @@ namespace Exemplar
              + list_of_numbers(corners) + '\n' + texture_of(surface);
     }
 
-    /// The attributes that have a sample a frame.
+    /// The attribute with a time sample in each frame.
     const std::string &
     points_attribute()
     {
@@ -160,7 +160,7 @@ namespace Exemplar
       return "        " + attribute + ".timeSamples = {\n";
     }
 
-    /// The text of an attribute's sample in a frame of one.
+    /// The text of an attribute's sample in a frame's file.
     std::string
     sample_in(const std::filesystem::path &frame, const std::string &attribute)
     {
@@ -198,8 +198,8 @@ namespace Exemplar
       return { list_of(points, append_point), list_of(extent, append_point) };
     }
 
-    /// Writes the surface of the body as text of Pixar's Universal Scene Description. A frame is a layer
-    /// with one sample in time; the animation joins their samples.
+    /// Writes the surface of the body as text of Pixar's Universal Scene Description. A frame is a
+    /// layer with one time sample; the animation joins the samples.
     class UsdaWriter : public FrameWriter
     {
     public:
@@ -236,7 +236,7 @@ namespace Exemplar
       }
 
     private:
-      /// The number of a frame, where frames are evenly spaced in time.
+      /// time / interval, which is the frame's number if frames are evenly spaced in time.
       std::string
       time_code(const double time) const
       {
@@ -276,7 +276,7 @@ namespace Exemplar
       }
 
       const std::string prim;
-      const std::string topology, groups; ///< no frame changes them
+      const std::string topology, groups; ///< the same in all frames
       const double      meters_per_unit;
       const Playback    playback;
     };

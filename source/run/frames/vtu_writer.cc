@@ -67,7 +67,7 @@ namespace Exemplar
       write_array(out, "Float64", name, 1, values.data(), values.size());
     }
 
-    /// Numbers of the whole frame.
+    /// Write the errors as field data of the whole frame.
     void
     write_errors(std::ostream &out, const SpaceError &error)
     {
@@ -133,8 +133,8 @@ namespace Exemplar
       }
 
     private:
-      const std::string head, piece;    ///< to the points
-      const std::string cells, regions; ///< encoded once, as no frame changes them
+      const std::string head, piece;    ///< up to the points
+      const std::string cells, regions; ///< encoded once, the same in all frames
     };
   } // namespace
 

@@ -11,7 +11,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// The nodes of all selections by their text; `named` are those of files and of the surface.
+    /// The nodes of all selections by their texts; `named` has those of files and of the surface.
     NamedNodes
     choose_nodes(const SceneParameters &scene, const Mesh &mesh, const NamedNodes &named)
     {
@@ -28,7 +28,8 @@ namespace Exemplar
       return nodes;
     }
 
-    /// Of what has been read off the surface, too. Takes the poses.
+    /// Fields of the whole body, with the readings off the surface. Moves the poses out of the
+    /// inputs.
     BodyFields
     make_fields(const SceneParameters &scene,
                 const Mesh            &mesh,

@@ -17,7 +17,7 @@ namespace Exemplar
   {
     using Displacements = std::vector<dealii::Tensor<1, 3>>;
 
-    /// Displacements of points at times, linear in between.
+    /// Displacements of points at given times, interpolated linearly.
     struct Track
     {
       std::vector<double>        times; ///< [s]
@@ -40,7 +40,7 @@ namespace Exemplar
       }
     };
 
-    /// How large a set of points is: the root of their mean squared distance from their middle.
+    /// Size of a set of points: the root mean square of the distances from their mean.
     double
     spread(const PointCache::Vertices &points)
     {
@@ -57,7 +57,7 @@ namespace Exemplar
           std::max(0., squares - (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / n) / n);
     }
 
-    /// No rig makes a surface so many times as large or as small.
+    /// A ratio of sizes that tells another unit: no rig scales a surface that much.
     constexpr double other_unit = 20.;
 
     void
@@ -85,7 +85,7 @@ namespace Exemplar
 
     constexpr double in_degrees = 180. / 3.14159265358979324;
 
-    /// Between two samples. A rig is sampled more often than it turns by so much.
+    /// Rotation between two samples that rigs do not reach at usual sampling rates.
     constexpr double great_turn = 60. / in_degrees;
 
     std::string
@@ -99,8 +99,9 @@ namespace Exemplar
       return fmt::format("{} degrees about ({})", std::lround(turn.angle * in_degrees), axis);
     }
 
-    /// Of the nodes of a handle that are turned as a whole in one step of the cache, which lasts no
-    /// longer than one of the scene: of longer ones the handle itself tells.
+    /// Text on a great rotation of a handle's nodes within one sample of the cache; empty if there
+    /// is none. Samples longer than a step of the scene are skipped: the handle itself warns of
+    /// those.
     std::string
     describe_great_turn(const Points &rest, const Track &track, const double scene_step)
     {
@@ -136,7 +137,7 @@ namespace Exemplar
              + "/Cache start or Initial/Pose.";
     }
 
-    /// A cache that goes on when t of the scene has come to its end, which is 1 but in dynamics.
+    /// Warn of a cache that is longer than the scene, whose t ends at 1 unless it is dynamic.
     void
     warn_of_unreached(const SurfaceSources      &from,
                       const std::vector<double> &times,
@@ -187,7 +188,7 @@ namespace Exemplar
       return times;
     }
 
-    /// How far the nodes are from their rest in a sample.
+    /// The displacements of the nodes from rest in sample k.
     Displacements
     displacements_in(const SurfaceSources    &from,
                      const PointCache        &cache,
@@ -215,7 +216,7 @@ namespace Exemplar
       return result;
     }
 
-    /// Of a track that does not begin where the body does, and of great turns.
+    /// Warn of a track that does not start at the body's initial positions, and of great rotations.
     void
     warn_of_jumps(const SurfaceSources   &from,
                   const HandleParameters &handle,

@@ -11,14 +11,14 @@ namespace Exemplar
 {
   namespace
   {
-    /// Whether cells are to be made inside of Mesh/File.
+    /// Whether the inside of Mesh/File is to be meshed.
     bool
     is_to_be_filled(const MeshParameters &mesh)
     {
       return mesh.is_surface() && mesh.generator == MeshGenerator::none;
     }
 
-    /// Names the key in what `act` throws.
+    /// Add the key to messages of exceptions of `act`.
     template <typename Action>
     auto
     under_key(const std::string &key, const Action &act)
@@ -33,7 +33,7 @@ namespace Exemplar
       }
     }
 
-    /// Adds to inputs what they do not hold.
+    /// Reads the inputs that are missing.
     class InputReader
     {
     public:
@@ -70,7 +70,7 @@ namespace Exemplar
       }
 
     private:
-      /// Whatever pose the scene needs and the inputs do not hold.
+      /// Call act(file, key) for each pose that the scene needs and the inputs lack.
       template <typename Action>
       void
       for_each_pose(const Action &act)
@@ -129,7 +129,7 @@ namespace Exemplar
           inputs.nodes[file] = read_nodes(file, inputs.mesh, name, key + "/Select");
       }
 
-      /// And what is painted on it, or moves it.
+      /// Read the surface, its maps and the caches that move handles.
       void
       add_surface()
       {

@@ -10,7 +10,8 @@ namespace Exemplar
 {
   namespace
   {
-    /// Of the diagonal: what the boundary of a pose may be from its surface without a warning.
+    /// Distance of a pose's boundary from its surface, relative to the diagonal, above which we
+    /// warn.
     constexpr double tolerable_error = .02;
 
     std::string

@@ -15,13 +15,13 @@ namespace Exemplar
 {
   namespace
   {
-    /// Of a map and of how it is used: MAP [from A to B] [absolute].
+    /// A map and its use, parsed from MAP [from A to B] [absolute].
     struct MapUse
     {
       MapName map;
       bool    is_factor = true;
       bool    has_range = false;    ///< from A to B
-      double  at_0 = 0., at_1 = 1.; ///< what values 0 and 1 stand for
+      double  at_0 = 0., at_1 = 1.; ///< values for 0 and 1 in the map
     };
 
     MapUse
@@ -60,7 +60,7 @@ namespace Exemplar
       return found->second;
     }
 
-    /// All constants of a scene that one member points to.
+    /// All values of a constant in the scene: everywhere, and in each region.
     std::vector<double>
     values_in_scene(const MaterialParameters &material, double ElasticConstants::*const member)
     {
@@ -72,7 +72,7 @@ namespace Exemplar
       return values;
     }
 
-    /// What makes shares of per cent, of bytes, and of other values.
+    /// Divisor that makes shares of percentages, of bytes, and of other values.
     double
     divisor_of(const double maximum)
     {
@@ -82,18 +82,18 @@ namespace Exemplar
       return maximum;
     }
 
-    /// Warn of values that a range goes beyond its ends for.
+    /// Warn of values outside [0, 1], for which a range from A to B extrapolates.
     void
     doubt_range(std::vector<std::string>  &warnings,
                 const std::string         &map,
                 const std::vector<double> &values,
                 const MapUse              &use)
     {
-      constexpr double rounding = 1e-3; // of a painting program
+      constexpr double rounding = 1e-3; // rounding of painting programs
       double           minimum = 0., maximum = 1.;
       for (const double value : values)
       {
-        minimum = std::min(minimum, value); // not if it is no number
+        minimum = std::min(minimum, value); // ignores NaN
         maximum = std::max(maximum, value);
       }
       if (minimum >= -rounding && maximum <= 1. + rounding)
@@ -108,8 +108,8 @@ namespace Exemplar
                  : std::string("Paint values from 0 to 1.")));
     }
 
-    /// Warn of values that look like those of the other use of a map. Nobody paints a body a hundred
-    /// times as stiff or dense everywhere as its scene says, unless that says 1; jelly has some 1000 Pa.
+    /// Warn of values that suggest the other use of a map. Nobody paints a whole body a hundred
+    /// times as stiff or dense as its scene says, unless that says 1; jelly has some 1000 Pa.
     void
     doubt(std::vector<std::string>  &warnings,
           const std::string         &map,
@@ -129,7 +129,7 @@ namespace Exemplar
                              "'absolute' out.");
     }
 
-    /// Linear over triangles, so that what holds at the vertices holds everywhere.
+    /// The painted constant is linear over triangles, so that bounds at vertices hold everywhere.
     PaintedConstant
     painted(const SurfaceSources &from,
             const std::string    &name,
@@ -197,10 +197,10 @@ namespace Exemplar
       std::vector<double> values  = find_map(map, from.inputs, key);
       double              maximum = 0.;
       for (const double value : values)
-        maximum = std::max(maximum, value); // not if it is no number
+        maximum = std::max(maximum, value); // ignores NaN
       for (std::size_t v = 0; v < values.size(); ++v)
       {
-        values[v] = std::isnan(values[v]) ? 0. : values[v]; // not in the table
+        values[v] = std::isnan(values[v]) ? 0. : values[v]; // vertex not in the table
         if (!(values[v] >= 0. && values[v] <= 1. + 1e-6))
           throw UserError(fmt::format(
               "{}: in {} vertex {} has the value {}, but shares lie between 0 and 1. {}", key,

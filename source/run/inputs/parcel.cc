@@ -20,7 +20,7 @@ namespace Exemplar
   {
     constexpr int message_tag = 16;
 
-    /// MPI counts the bytes of a message by int.
+    /// MPI counts the bytes of a message in an int.
     constexpr std::size_t message_size = std::numeric_limits<int>::max();
 
     std::vector<unsigned int>
@@ -35,7 +35,7 @@ namespace Exemplar
       return numbers;
     }
 
-    /// The places of those of `nodes` that are among `vertices`.
+    /// The indices in `vertices` (ascending) of those `nodes` that it contains.
     std::vector<unsigned int>
     places_among(const std::vector<unsigned int> &vertices, const std::vector<unsigned int> &nodes)
     {
@@ -47,7 +47,7 @@ namespace Exemplar
       return places;
     }
 
-    /// What a process gets of them; `vertices` are its nodes of the mesh file.
+    /// The fields of a part; `vertices` are the part's nodes of the mesh file.
     BodyFields
     part_of(const BodyFields                &whole,
             const PartOfBody                &part,

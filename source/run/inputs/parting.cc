@@ -18,13 +18,13 @@ namespace Exemplar
 {
   namespace
   {
-    /// The graph of what stays whole, patches or cells: an edge where two share a face.
+    /// The graph of lumps (patches or cells) with an edge between two that share a face.
     dealii::SparsityPattern
     dual_graph(const std::vector<CellFace>     &faces,
                const std::vector<unsigned int> &lump_of_cell,
                const unsigned int               n_lumps)
     {
-      std::vector<unsigned int>                        row_lengths(n_lumps, 1); // and the diagonal
+      std::vector<unsigned int> row_lengths(n_lumps, 1); // one for the diagonal
       std::vector<std::pair<std::size_t, std::size_t>> edges;
       for (std::size_t i = 1; i < faces.size(); ++i)
         if (faces[i].nodes == faces[i - 1].nodes)
@@ -46,7 +46,7 @@ namespace Exemplar
       return pattern;
     }
 
-    /// What stays whole: the patch of each cell, or the cell itself.
+    /// The lump of each cell, which is not divided: its patch, or the cell itself.
     std::vector<unsigned int>
     lumps_of(const Mesh &mesh, const std::vector<unsigned int> &patches)
     {
@@ -85,7 +85,7 @@ namespace Exemplar
       return chosen(process_of, lumps);
     }
 
-    /// The faces of the boundary, each to the process of its cell.
+    /// Assign each face of the boundary to the process of its cell.
     void
     give_faces(const Mesh                      &mesh,
                const std::vector<CellFace>     &faces,
@@ -106,7 +106,7 @@ namespace Exemplar
         std::sort(part.faces.begin(), part.faces.end());
     }
 
-    /// All nodes of its cells to each process.
+    /// Assign all nodes of its cells to each process.
     void
     give_nodes(const Mesh                                     &mesh,
                const std::vector<std::array<unsigned int, 2>> &edges,
@@ -128,7 +128,7 @@ namespace Exemplar
       }
     }
 
-    /// Of a node that several processes have, one is the owner, by turns.
+    /// Number the nodes. Owners of shared nodes are chosen among their processes in turn.
     void
     number_nodes(const std::size_t n_nodes, std::vector<PartOfBody> &parts)
     {

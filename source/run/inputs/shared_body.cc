@@ -20,7 +20,7 @@ namespace Exemplar
   {
     using Refuse = std::function<void(const std::string &what, const std::string &remedy)>;
 
-    /// Linear elements leave places of the middles of edges away before the parts could check them.
+    /// Check edge midpoints in poses before linear elements drop them, which the parts could not.
     void
     check_middles(const BodyInputs &whole, const Element element)
     {
@@ -39,7 +39,7 @@ namespace Exemplar
         send(parcel, process, communicator);
     }
 
-    /// What the root does: read, send all others their parts, and keep its own and what is not divided.
+    /// The root's part: read, send the others their parcels, and keep its own and undivided inputs.
     Parcel
     distribute(const CompleteScene &scene,
                const MPI_Comm       communicator,

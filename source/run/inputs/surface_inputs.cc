@@ -27,21 +27,21 @@ namespace Exemplar
     namespace fs = std::filesystem;
     using Json   = nlohmann::ordered_json;
 
-    /// Of the program that makes something of surfaces, and of gmsh's library.
+    /// Identity of this program and of gmsh's library, for keys of the cache.
     std::string
     maker()
     {
       return own_build_identity() + " " + gmsh_identity() + "\n";
     }
 
-    /// Of a surface's bytes, and of the format that they are in.
+    /// Digest of a surface file's bytes, and its format.
     std::string
     surface_digest(const std::string &file)
     {
       return sha256_of_text(read_surface_bytes(file)) + fs::path(file).extension().string() + "\n";
     }
 
-    /// Of what a pose on it depends on.
+    /// Digest of the mesh data that a pose on it depends on.
     std::string
     mesh_digest(const MshFile &mesh)
     {
@@ -81,12 +81,12 @@ namespace Exemplar
     }
   } // namespace
 
-  /// What carrying poses needs.
+  /// Surface and transfer with which poses are carried.
   struct SurfaceInputs::Poses
   {
     explicit Poses(const fs::path &file) : rest(file) {}
 
-    /// Onto a mesh, always the same.
+    /// The transfer to the mesh, the same at each call; made at the first one.
     PoseTransfer &
     transfer_to(const MshFile &contents, const SceneParameters &scene)
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands for surface_inputs.cc in the build of ./demo.sh.
+// Stubs in place of surface_inputs.cc in the build of ./demo.sh.
 #include <exemplar/base/errors.h>
 #include <exemplar/base/whole_program.h>
 #include <exemplar/run/inputs/surface_inputs.h>

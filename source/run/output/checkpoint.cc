@@ -19,7 +19,7 @@
 
 namespace Exemplar
 {
-  // boost finds them by this name
+  // boost requires this name
 
   template <typename Archive>
   void
@@ -54,13 +54,13 @@ namespace Exemplar
 
   namespace
   {
-    /// The first line. The number grows with every change of what follows.
+    /// The first line. The number is increased with each change of the format.
     const std::string format = "exemplar checkpoint 12";
 
     const std::string without_resume = " Run the scene without --resume.";
 
-    /// What `load` returns. Throws UserError if it does not understand the bytes, which are as
-    /// they were written: then another build of the program has written them.
+    /// Return load(). Throws UserError if it fails although the bytes are intact: then another
+    /// build of the program wrote them.
     template <typename Load>
     auto
     guarded_load(const std::filesystem::path &file, const Load &load)
@@ -86,8 +86,8 @@ namespace Exemplar
       }
     }
 
-    /// Throws UserError unless `in`, which reads a sealed file, begins with the line of a
-    /// checkpoint of this version; goes behind it.
+    /// Throws UserError unless `in` begins with the first line of a checkpoint of this version;
+    /// moves behind that line.
     void
     read_format(std::istream &in, const std::filesystem::path &file)
     {
@@ -121,7 +121,7 @@ namespace Exemplar
           file.string()
           + ": there is no checkpoint to resume from. Give the --output of the run that is "
             "to go on, or run the scene without --resume.");
-    if (n_sealed_bytes(file) == 0) // before anything in it is believed
+    if (n_sealed_bytes(file) == 0) // before any of its contents are used
       throw UserError(file.string()
                       + " is damaged, or of another version: its checksum is missing or not that "
                         "of its bytes."

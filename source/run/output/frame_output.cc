@@ -104,7 +104,7 @@ namespace Exemplar
     const SceneParameters &scene = problem.parameters;
     Playback               result;
     result.interval = problem.time_axis.step_size(1) * scene.output.every;
-    if (scene.scene == SceneKind::dynamic) // without the last digits of 1 / 0.01
+    if (scene.scene == SceneKind::dynamic) // 1 / 0.01 without rounding errors
       result.frames_per_second = std::round(1e6 / result.interval) / 1e6;
     const auto &g  = scene.loads.gravity;
     result.z_is_up = std::abs(g[2]) > std::abs(g[1]);
@@ -121,9 +121,9 @@ namespace Exemplar
     u -= fe_space.rest_positions();
     if (poses.get_regions().n_regions() == 1)
       return u;
-    // at a node the mean share of its cells
+    // at nodes, the mean of the shares in their cells
     std::vector<double> share(fe_space.n_nodes(), 0.), n_cells(fe_space.n_nodes(), 0.);
-    const unsigned int  n_points = points_per_cell(fe_space.element()); // with the same shares
+    const unsigned int  n_points = points_per_cell(fe_space.element()); // all with the same shares
     for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
       for (const unsigned int node : fe_space.nodes(cell))
       {

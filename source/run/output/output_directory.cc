@@ -88,7 +88,7 @@ namespace Exemplar
                           + input.string() + "." + remedy);
     refuse_foreign(file.path, file.beginning, file.end, remedy);
     refuse_foreign(temporary, file.beginning, "",
-                   remedy); // what a killed command has left is no whole file
+                   remedy); // a killed command's file may be truncated
   }
 
   bool

@@ -40,7 +40,7 @@ namespace Exemplar
       }
     };
 
-    /// Whether a run had the scenes of the state until its step.
+    /// Whether the edits of a state's run are those of this run up to the state's step.
     bool
     is_of_run(const Checkpoint &state, const RunTotals &run)
     {
@@ -52,7 +52,7 @@ namespace Exemplar
              && (before.size() == all.size() || all[before.size()].step >= state.state.step);
     }
 
-    /// All but those that any resumed run may change.
+    /// Changed keys, except those that any resumed run may change.
     std::vector<ChangedKey>
     changed_keys(const Checkpoint &checkpoint, const SceneFile &scene)
     {
@@ -65,7 +65,7 @@ namespace Exemplar
         const std::string &key      = entry.first;
         const std::string  before   = value_in(checkpoint.parameters, key);
         const std::string  after    = value_in(now, key);
-        const bool         is_unset = before == absent && after.empty(); // of a region that is new
+        const bool         is_unset = before == absent && after.empty(); // of a new region
         if (before != after && !is_unset && !may_change(key))
           changed.push_back({ key, before, after });
       }
@@ -83,18 +83,19 @@ namespace Exemplar
       return files;
     }
 
-    /// What makes other states: a run cannot go on with another one.
+    /// Whether a run cannot be resumed with this change, even as an edited scene.
     bool
     is_fixed(const ChangedKey &changed)
     {
       const std::string &key = changed.key;
-      if (key == "Mesh/Surface") // frames may show one from now on, but no other one
+      if (key == "Mesh/Surface") // may be added, but not changed
         return !changed.before.empty();
       return key == "Scene" || key == "Time/Step" || key == "Time/Increments"
              || key == "Model/Element" || key.compare(0, 5, "Mesh/") == 0;
     }
 
-    /// A change with which a run cannot even go on from a step, in a sentence; empty if there is none.
+    /// A sentence on the first change that excludes resuming, even as an edited scene; empty if
+    /// none.
     std::string
     fixed_change(const Checkpoint                         &checkpoint,
                  const SceneFile                          &scene,
@@ -163,12 +164,12 @@ namespace Exemplar
                         + ". Choose a later end, or run the scene without --resume.");
     }
 
-    /// A name for messages, and the numbers of a state that it stands for.
+    /// Numbers of a state, with a name for messages.
     struct NamedNumbers
     {
       std::string   name;
       const double *first;
-      std::size_t   size, expected; ///< how many there are, and how many the problem has
+      std::size_t   size, expected; ///< how many there are, and how many there should be
     };
 
     std::vector<NamedNumbers>
@@ -178,7 +179,7 @@ namespace Exemplar
           = [](const std::string &name, const auto &numbers, const std::size_t expected) {
               return NamedNumbers{ name, numbers.data(), numbers.size(), expected };
             };
-      // a scheme of two steps has no step before at the start, others never have one
+      // two-step schemes have no step before at the start, one-step schemes never
       const auto previous = [&](const Vector &numbers)
       { return numbers.size() == 0 || initial.velocities.size() == 0 ? 0 : n_dofs; };
       return {
@@ -295,7 +296,7 @@ namespace Exemplar
       rule = rule || one.key == "Examples/Weights";
       if (one.key.compare(0, 8, "Initial/") == 0)
         result.notes.push_back(one.text() + " It acts at the start of a run alone, so not here.");
-      if (one.key == "Time/Scheme") // the step before is of no use to the other scheme
+      if (one.key == "Time/Scheme") // useless to the other scheme
       {
         state.previous_positions.reinit(0);
         state.previous_velocities.reinit(0);
@@ -304,7 +305,7 @@ namespace Exemplar
       }
     }
     if (result.is_edited)
-      checkpoint.solver_memory.clear(); // of another potential
+      checkpoint.solver_memory.clear(); // belongs to another potential
     if (rule && state.weights != problem.state.weights)
     {
       result.notes.push_back(fmt::format("The example weights are others than those of step {}, so "

@@ -22,14 +22,14 @@ namespace Exemplar
   {
     const std::string remedy = " Give another one by --output or Output/Directory.";
 
-    /// A file that has not been renamed yet.
+    /// Whether this is a temporary file, not yet renamed.
     bool
     is_temporary(const std::string &name)
     {
       return fs::path(name).extension() == ".tmp";
     }
 
-    /// The step of a state's file.
+    /// The step of the file of a kept state.
     std::optional<unsigned int>
     step_of_state(const std::string &name)
     {
@@ -40,7 +40,7 @@ namespace Exemplar
       return static_cast<unsigned int>(std::stoul(parts[1]));
     }
 
-    /// The name without the number of a scene before an edit, or as it is.
+    /// The name without the number that copies of earlier scenes have, otherwise unchanged.
     std::string
     without_number(const std::string &name)
     {
@@ -49,7 +49,7 @@ namespace Exemplar
       return std::regex_replace(name, pattern, "$1$2");
     }
 
-    /// Files that a run has once, and what they begin with; empty: with anything.
+    /// Files that exist once in a run, with their beginnings; empty: any beginning.
     const std::map<std::string, std::string> &
     single_files()
     {
@@ -180,7 +180,7 @@ namespace Exemplar
   {
     const auto n_files
         = std::distance(fs::directory_iterator(get_path()), fs::directory_iterator());
-    // a run that was killed before it had a file leaves the first one's temporary
+    // a run killed before its first file was complete leaves only the temporary
     const bool is_stillborn = static_cast<std::size_t>(n_files) == names.size()
                               && std::all_of(names.begin(), names.end(), is_temporary);
     if (!is_ours() && !is_stillborn)
@@ -226,7 +226,7 @@ namespace Exemplar
     refuse_inputs(names, input_files, "replace");
     for (const std::string &name : names)
     {
-      // the readers of these two say better what is wrong with them
+      // these two are checked by their readers, with better messages
       const bool is_read
           = name == files.statistics().filename() || name == files.checkpoint().filename();
       const bool is_regular = fs::is_regular_file(fs::symlink_status(get_path() / name));
@@ -311,10 +311,9 @@ namespace Exemplar
   void
   RunDirectory::clear() const
   {
-    fs::remove(files.checkpoint()); // first: what has lost one of its files cannot be resumed
+    fs::remove(files.checkpoint()); // first: an incomplete run cannot be resumed
     for (const std::string &name : own_names())
-      if (get_path() / name
-          != files.parameters_prm()) // stays until it is replaced: by it the directory is known
+      if (get_path() / name != files.parameters_prm()) // replaced later, as it marks the directory
         fs::remove(get_path() / name);
   }
 } // namespace Exemplar

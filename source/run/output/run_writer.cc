@@ -17,8 +17,8 @@ namespace Exemplar
 
   namespace
   {
-    /// Empty the cells of a failed step but for its report: the problem is still in the state
-    /// before the step, and its forces are those of the last attempt, so neither belongs there.
+    /// Empty a failed step's cells except those of its report: the problem's state is that before
+    /// the step, but its forces are of the last attempt.
     void
     keep_only_report(StatisticsRow &row)
     {
@@ -27,7 +27,7 @@ namespace Exemplar
           cell.value = std::monostate();
     }
 
-    /// None elsewhere.
+    /// Digests of the input files at the root; empty elsewhere.
     std::map<std::string, std::string>
     digests_at_root(const SceneFile &scene, const Exchange &exchange)
     {
@@ -96,7 +96,7 @@ namespace Exemplar
       if (frames.is_due(0))
         write_frame();
       write_row(diagnostics.row(problem.state, SolveReport()), {}, true);
-      save(); // so that a crash before the first interval can be resumed, too
+      save(); // for crashes before the first interval has passed
       keep_state();
     }
     account.begin_steps();
@@ -173,7 +173,7 @@ namespace Exemplar
       keep_state();
 
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - last_checkpoint;
-    bool is_time = false; // by the clock of the root, which no decision but this one depends on
+    bool                                is_time = false; // by the root's clock
     Exemplar::at_root(
         exchange,
         [&] { is_time = since.count() > 60. * problem.parameters.output.checkpoint_minutes; });
@@ -196,13 +196,13 @@ namespace Exemplar
       StepClock::Scope scope(problem.clock, Phase::output);
       frames.drain();
       write_final_pose();
-      save(); // whatever happens to animations and estimates
+      save(); // before animations and estimates, which may fail
       space_error.find_at_end();
       last = { space_error.get(), functional_at_end(problem) };
       at_root([&] { frames.write_animations(); });
     }
     account.lap();
-    at_root([] {}); // the directory is still there
+    at_root([] {}); // throws if the directory is gone
     const auto mesh_digest = input_digests.find(problem.parameters.mesh.file);
     write_summary(problem, get_totals(), last,
                   mesh_digest != input_digests.end() ? mesh_digest->second : "generated", status,
@@ -229,7 +229,7 @@ namespace Exemplar
   void
   RunWriter::save()
   {
-    frames.drain(); // because a resumed run does not write them again
+    frames.drain(); // a resumed run does not write them again
     last_checkpoint             = std::chrono::steady_clock::now();
     const Checkpoint checkpoint = present();
     at_root([&] { save_checkpoint(checkpoint, directory.get_files().checkpoint()); });

@@ -15,7 +15,7 @@ namespace Exemplar
 
   namespace
   {
-    /// Whether the checkpoint's step had a frame only because the run ended there.
+    /// Whether the checkpoint's step has a frame only because the run ended there.
     bool
     is_only_last_frame(const Checkpoint &checkpoint)
     {
@@ -41,7 +41,7 @@ namespace Exemplar
     directory.watch();
     share(exchange, checkpoint);
     restore(checkpoint, directory.get_files().checkpoint(),
-            problem); // the last thing that may refuse
+            problem); // last, as it may throw
     {
       StepClock::Scope scope(problem.clock, Phase::output);
       at_root(
@@ -82,7 +82,7 @@ namespace Exemplar
   fs::path
   RunWriter::load_state(const unsigned int step, Checkpoint &checkpoint) const
   {
-    // by the checkpoint it is known which run's states these are
+    // the checkpoint tells to which run the states belong
     if (!fs::exists(directory.get_files().checkpoint()))
       throw UserError(
           directory.get_path().string()
@@ -154,7 +154,7 @@ namespace Exemplar
           if (is_only_last_frame(checkpoint) && !frames.is_due(checkpoint.state.step))
             frames.remove(checkpoint.state.step);
         });
-    if (frames.is_due(checkpoint.state.step) && frames.is_missing()) // a resume has removed it
+    if (frames.is_due(checkpoint.state.step) && frames.is_missing()) // removed by a resume
       write_frame();
     account.begin_steps();
   }

@@ -13,7 +13,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// Cut a file behind its first bytes, those that belong to a checkpoint.
+    /// Cut a file after its first `n_bytes`, those that belong to a checkpoint.
     std::filesystem::path
     truncated(const std::filesystem::path &path, const std::uintmax_t n_bytes)
     {
@@ -35,7 +35,7 @@ namespace Exemplar
       return texts;
     }
 
-    /// A table whose names and cells hold no commas.
+    /// Cells of a line of a table without quoted commas.
     std::vector<std::string>
     cells_in(const std::string &line)
     {
@@ -50,10 +50,10 @@ namespace Exemplar
     struct EarlierRows
     {
       std::vector<std::string> columns, lines;
-      std::uintmax_t           n_bytes = 0; ///< of all these
+      std::uintmax_t           n_bytes = 0; ///< of all these lines
     };
 
-    /// Up to the row of a step.
+    /// Read the rows up to that of a step.
     EarlierRows
     read_up_to(const std::filesystem::path &path, const unsigned int step)
     {

@@ -86,7 +86,7 @@ namespace Exemplar
       return json;
     }
 
-    /// The numbers that tell whether a pose is good, by the names of poses.csv.
+    /// Quality measures of poses, named as in poses.csv.
     Json
     poses_carried(const std::vector<MadeOfSurfaces::Pose> &poses)
     {
@@ -112,7 +112,7 @@ namespace Exemplar
       return json;
     }
 
-    /// Names of the parts that are there, or of those that are not.
+    /// Names of the parts in use, or of those not in use.
     Json
     names_of(const std::vector<PartOfProblem> &parts, const bool is_there)
     {
@@ -122,7 +122,7 @@ namespace Exemplar
           names.push_back(part.name);
       return names;
     }
-    /// What all processes must tell of a body that they share.
+    /// Numbers to which all processes that share a body contribute.
     struct SharedNumbers
     {
       explicit SharedNumbers(const Problem &problem) : SharedNumbers(problem, peak_memory_mib()) {}
@@ -201,7 +201,8 @@ namespace Exemplar
       return text;
     }
 
-    /// Who is held, by the numbers of nodes in frames, and how examples are called: for pages that show the run.
+    /// Names of handles and examples, and numbers of held nodes in frames, for pages that show the
+    /// run.
     void
     add_names(const Problem &problem, Json &json)
     {
@@ -209,12 +210,11 @@ namespace Exemplar
       for (unsigned int i = 0; i < poses.size(); ++i)
         json["example_names"].push_back(printable(short_name_of_pose(poses, i)));
       if (problem.body.exchange().n_processes() > 1)
-        return; // each has a part of the nodes
+        return; // each has its own part of the nodes
       const Handles    &handles = problem.constraints.handles;
       const std::size_t n_of_scene
           = std::min<std::size_t>(problem.parameters.handles.size(), handles.size());
-      for (unsigned int handle = 0; handle < n_of_scene;
-           ++handle) // not those that a session has held
+      for (unsigned int handle = 0; handle < n_of_scene; ++handle) // without handles of a session
         json["handles"].push_back({ { "name", printable(handles.name(handle)) },
                                     { "nodes", ranges_of(handles.nodes(handle)) } });
     }

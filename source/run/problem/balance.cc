@@ -51,7 +51,7 @@ namespace Exemplar
             "Hold its feet: add a handle that holds three nodes not on a line," + without);
     }
 
-    /// C : sym M of the law of a point at rest, the dilatation of patches aside.
+    /// C : sym M of the law of a point at rest, without the dilatation of patches.
     Matrix3<double>
     stress_at_rest(const CellBatches &batches, const unsigned int point, const Matrix3<double> &M)
     {
@@ -71,7 +71,7 @@ namespace Exemplar
                                });
     }
 
-    /// The body at rest, without loads and inertia: what its linear stiffness answers to forces.
+    /// The body at rest, without loads and inertia, whose linear stiffness answers to forces.
     class RestingBody
     {
     public:
@@ -89,7 +89,7 @@ namespace Exemplar
                       is_assembled_in_parts(parameters.solver, exchange)),
             system(make_bordered_system(parameters.solver, potential))
       {
-        ElasticEvaluation evaluation; // which finds the rotations
+        ElasticEvaluation evaluation; // finds the rotations
         potential.get_cells().evaluate(rest(), weights, evaluation, RotationUse::update);
         assemble();
         if (!is_iterative())
@@ -98,7 +98,7 @@ namespace Exemplar
         system->factorize(rest());
       }
 
-      /// tau with sum V tau g = force on the free degrees of freedom.
+      /// tau with sum V tau g = force on the free degrees of freedom, found by corrections.
       PointStresses
       stresses_of(const Vector &force)
       {
@@ -109,7 +109,7 @@ namespace Exemplar
         {
           const double size = free_dofs.max_magnitude(missing);
           if (!(size > 0.) || !(size < 0.5 * before))
-            break; // nothing but rounding is left
+            break; // the rest is rounding
           before = size;
           add_stresses(displacement_of(missing), stresses);
           missing = force;
@@ -118,8 +118,8 @@ namespace Exemplar
         return stresses;
       }
 
-      /// The least factor of the elasticity with which the body stands under these stresses, 1 if it does as
-      /// it is; none where no factor is made.
+      /// The least factor of the elasticity at which the body is stable under these stresses, 1 if
+      /// it is as it is; 1 also if the solver does not factorise.
       double
       least_factor(const PointStresses &stresses)
       {
@@ -154,7 +154,7 @@ namespace Exemplar
         return body.fe_space.rest_positions();
       }
 
-      /// Whether the system has no factor.
+      /// Whether the system does not factorise.
       bool
       is_iterative() const
       {
@@ -239,8 +239,8 @@ namespace Exemplar
         return stands_beside_examples(factor);
       }
 
-      /// With a small weight w_i > 0 of an example the energy grows by S_ii w_i^2 / 2, where S is the Schur
-      /// complement (11), of which rounding leaves a share; elsewhere the body slides towards the example.
+      /// A small weight w_i > 0 changes the energy by S_ii w_i^2 / 2 with the Schur complement S,
+      /// Eq. (11). If S_ii < 0 beyond rounding, the body slides towards the example.
       bool
       stands_beside_examples(const double factor)
       {
@@ -264,15 +264,15 @@ namespace Exemplar
       const Body                           &body;
       const Exchange                       &exchange;
       const FreeDofs                       &free_dofs;
-      const std::vector<double>             weights; ///< none of an example
+      const std::vector<double>             weights; ///< zero
       IncrementalPotential                  potential;
       const std::unique_ptr<BorderedSystem> system;
-      std::vector<double>                   stiffness; ///< K; empty where no factor is made
-      std::vector<double>                   coupling;  ///< G
+      std::vector<double> stiffness; ///< K; empty if the system does not factorise
+      std::vector<double> coupling;  ///< G
     };
 
-    /// A body with this Young's modulus [Pa] stands with `factor` times that; `is_led` if weights of examples are to
-    /// be found, too, which count in this.
+    /// Warning that the body is unstable, but stable with `factor` times this Young's modulus [Pa];
+    /// `is_led`: with unknown weights of examples, which contribute to that.
     std::string
     warning_of_instability(const double factor, const double youngs_modulus, const bool is_led)
     {

@@ -60,7 +60,7 @@ namespace Exemplar
   measure(const Body &body)
   {
     BodyMeasures          result{};
-    std::array<double, 3> sums{}; // of volume, mass and volume over Young's modulus
+    std::array<double, 3> sums{}; // volume, mass, volume over Young's modulus
     for (unsigned int point = 0; point < body.fe_space.n_points(); ++point)
     {
       const unsigned int cell   = body.fe_space.cell_of(point);

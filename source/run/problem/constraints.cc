@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <limits>
 
-// What holds the body of a problem.
+// Constraints of the body of a problem.
 
 namespace Exemplar
 {
   namespace
   {
-    /// What this process has of degrees of freedom of the whole body.
+    /// Degrees of freedom of the whole body that this process has, in its own numbering.
     std::vector<unsigned int>
     dofs_here(const Exchange &exchange, const std::vector<unsigned int> &in_whole)
     {
@@ -34,7 +34,7 @@ namespace Exemplar
       return names;
     }
 
-    /// The least radius about a node [m] within which a whole cell lies.
+    /// The least radius [m] of a sphere about a node that contains a whole cell.
     double
     reach_of_a_cell(const Body &body, const unsigned int node)
     {
@@ -93,7 +93,7 @@ namespace Exemplar
 
   namespace
   {
-    /// Of a handle with a single node.
+    /// Remedy for a handle with a single node.
     std::string
     remedy_of_single_node(const Handles &handles, const unsigned int h, const Body &body)
     {

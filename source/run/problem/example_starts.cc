@@ -8,7 +8,8 @@ namespace Exemplar
 {
   namespace
   {
-    /// By more than rounding, tolerances and the ridge of the weights make of an energy.
+    /// Whether an energy is less by more than rounding, tolerances and the ridge of the weights
+    /// explain.
     bool
     is_clearly_less(const double energy, const double other, const Body &body)
     {
@@ -16,7 +17,7 @@ namespace Exemplar
              < other - 1e-6 * std::abs(other) - 1e-10 * unit_energy(body.fe_space, body.material);
     }
 
-    /// The only example whose weight is 1, in all regions.
+    /// Weights with 1 for this example in all regions, else 0.
     std::vector<double>
     weight_of(const unsigned int example, const ExampleWeights &weights)
     {
@@ -25,7 +26,7 @@ namespace Exemplar
         all[i] = 1.;
       return all;
     }
-    /// An example with the held nodes where they are in `end`, and the weight 1 of its own.
+    /// The pose of an example, its weight 1, with the held nodes where they are in `end`.
     State
     at_example(const Problem &problem, const unsigned int i, const State &end)
     {
@@ -60,7 +61,7 @@ namespace Exemplar
           is_clearly_less(energy, best ? best->energy : problem.evaluation.potential, problem.body))
         best = { examples.poses.name(i), SolveStatus::initial, energy, false };
     }
-    problem.start(problem.state); // the rotations are its own again
+    problem.start(problem.state); // restores its rotations
     return best;
   }
 
@@ -79,7 +80,7 @@ namespace Exemplar
     {
       State      at = at_example(problem, i, end);
       Evaluation found;
-      problem.solver->forget(); // its factor is of other positions
+      problem.solver->forget(); // factorised at other positions
       potential.leave_step(at);
       potential.set_time(at.time, at);
       potential.minimize_over_weights(at, RotationUse::update, found);

@@ -9,8 +9,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// Whether all of an array's numbers are finite. Larger ones than these have no square, and
-    /// energies are made of squares.
+    /// Whether all numbers of an array are finite, and their squares, of which energies consist.
     template <typename Numbers>
     bool
     are_finite(const Numbers &numbers)
@@ -18,7 +17,7 @@ namespace Exemplar
       return max_entry(numbers.begin(), numbers.end()) < 1e150;
     }
 
-    /// What is not finite in the first process where something is not; empty if all is finite in all.
+    /// The text of the first process that has one; empty if all are finite in all processes.
     std::string
     agreed_by_all(const std::string &what, const Exchange &exchange)
     {
@@ -81,7 +80,7 @@ namespace Exemplar
     }
     catch (const SolverFailure &)
     {
-      what = "forces"; // or the scales by which they are measured
+      what = "forces"; // or their scales
     }
     if (!what.empty())
       throw UserError(
@@ -97,7 +96,7 @@ namespace Exemplar
     const Body &body = problem.body;
     std::string what = std::isfinite(report.residual) ? what_is_not_finite(next, problem.evaluation)
                                                       : "residuals";
-    // cubes of such ratios of lengths may be none, where the energies, their squares, are numbers
+    // frames hold cubes of such ratios, which may overflow where energies, their squares, do not
     const auto maximum
         = [&](const Vector &x) { return body.exchange().max(max_entry(x.begin(), x.end())); };
     what = agreed_by_all(what, body.exchange());

@@ -22,7 +22,7 @@ namespace Exemplar
              && std::all_of(v.begin(), v.end(), [](const double a) { return a == 0.; });
     }
 
-    /// The components of a force that are not 0 as they are written.
+    /// The components of a force whose formulas are not the number 0.
     std::vector<unsigned int>
     directions_of(const LoadParameters &load)
     {
@@ -34,7 +34,7 @@ namespace Exemplar
       return directions;
     }
 
-    /// Whether all of these nodes are held in these directions, in this process.
+    /// Whether all of these nodes of this process are held in these directions.
     bool
     are_held(const std::vector<unsigned int> &nodes,
              const std::vector<unsigned int> &directions,
@@ -52,7 +52,7 @@ namespace Exemplar
                          });
     }
 
-    /// Whether the examples leave the rest pose an equilibrium.
+    /// Whether the rest pose is an equilibrium with these examples.
     bool
     may_rest(const Examples &examples)
     {

@@ -26,7 +26,7 @@ namespace Exemplar
             field[3 * node + c] = value[c];
         }
       };
-      do_in_agreement(fe_space.exchange(), set); // a formula may fail at nodes of one process alone
+      do_in_agreement(fe_space.exchange(), set); // a formula may fail in one process alone
     };
     if (!parameters.pose.empty())
     {

@@ -5,7 +5,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// 0 if the potential has no term of this name.
+    /// Memory of the terms of this name; 0 if the potential has none.
     std::size_t
     memory_of_term(const Problem &problem, const std::string &name)
     {
@@ -59,7 +59,7 @@ namespace Exemplar
       { "stiffness damping", is_dynamic && time.stiffness_damping > 0., {} },
       { "handles", problem.constraints.handles.size() > 0, {} },
       { "own support of interpolation", problem.constraints.support.has_value(), {} },
-      { "gravity", has_gravity, has_gravity ? loads : 0 }, // one vector holds both
+      { "gravity", has_gravity, has_gravity ? loads : 0 }, // one vector for gravity and loads
       { "loads", actions.loads != nullptr && actions.loads->has_named_loads(),
         has_gravity ? 0 : loads },
       { "initial stresses", !actions.initial_stresses.empty(),

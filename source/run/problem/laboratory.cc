@@ -25,7 +25,7 @@ namespace Exemplar
       return integrator == nullptr ? nullptr : std::make_unique<TimeIntegrator>(*integrator);
     }
 
-    /// Those of the scene, and then one's own, which `own` gets, too.
+    /// The terms of the scene, and then user-defined ones, which are also appended to `own`.
     PotentialTerms
     make_all_terms(const Problem                &problem,
                    const TimeIntegrator         *integrator,
@@ -40,7 +40,7 @@ namespace Exemplar
       return terms;
     }
 
-    /// `to` remembers what `from` does.
+    /// Copy the state of a term to another of the same kind.
     void
     copy_memory(const PotentialTerm &from, PotentialTerm &to)
     {
@@ -62,8 +62,8 @@ namespace Exemplar
       return problem.body;
     }
 
-    /// The inverse of H of some weights, bordered by the sums of the regions that have one of them: its
-    /// first rows and columns are those of the weights.
+    /// The inverse of H for active weights, bordered by the sums of their regions; its first rows
+    /// and columns are those of the weights.
     dealii::FullMatrix<double>
     bordered_inverse(const WeightForm &form, const std::vector<unsigned int> &active)
     {
@@ -73,7 +73,7 @@ namespace Exemplar
                         [&](const unsigned int i) { return form.N(r, i) != 0.; }))
           sums.push_back(r);
       const unsigned int         m    = active.size();
-      const double               unit = form.H.frobenius_norm(); // rows of sums as large as others
+      const double               unit = form.H.frobenius_norm(); // scale of the bordering rows
       dealii::FullMatrix<double> bordered(m + sums.size(), m + sums.size());
       for (unsigned int i = 0; i < m; ++i)
       {
@@ -163,7 +163,7 @@ namespace Exemplar
   void
   Laboratory::assemble(const Place &at, const Tangent kind)
   {
-    evaluate(at); // which finds the rotations
+    evaluate(at); // finds the rotations
     values.resize(potential.get_tangent().get_pattern().n_values());
     potential.get_tangent().assemble(at.positions, at.weights, kind == Tangent::convex ? 1. : 0.,
                                      values, columns);
@@ -257,7 +257,7 @@ namespace Exemplar
     ElasticPotential &elastic  = potential.get_cells();
     const FESpace    &fe_space = problem.body.fe_space;
     CellMeans         means;
-    means.det_F = elastic.cell_results(at.positions, at.weights).det_F; // tells the cells all
+    means.det_F = elastic.cell_results(at.positions, at.weights).det_F; // updates cells, too
     means.strains.resize(fe_space.n_cells());
     means.stresses.resize(fe_space.n_cells());
     const CellField &cells = elastic.get_field();

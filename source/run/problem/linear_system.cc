@@ -4,16 +4,16 @@
 
 #include <algorithm>
 
-// Which linear solver a scene gets.
+// Choice of the linear solver.
 
 namespace Exemplar
 {
   namespace
   {
-    /// Operations of a factorisation, for each value of the matrix that multigrid would have, from which
-    /// multigrid is faster: measured, doc/measured.md. Columns of weights beside the right side take
-    /// conjugate gradients as long as that; quasi-Newton's method finds them with each new matrix alone,
-    /// and has a factor in single precision.
+    /// Crossover: operations of a factorisation per matrix value of multigrid beyond which
+    /// multigrid is faster, as measured, doc/measured.md. Each column of weights costs conjugate
+    /// gradients as much as the right side; quasi-Newton's method solves for them only with new
+    /// matrices, and factorises in single precision.
     double
     operations_at_crossover(const Method method, const unsigned int n_examples)
     {
@@ -21,8 +21,8 @@ namespace Exemplar
                                             : 1.2e4 * (1. + n_examples);
     }
 
-    /// Of a matrix without the couplings of outer products, as multigrid has it. In a mesh of linear
-    /// tetrahedra a node has 14 neighbours, half of which are in the lower triangle.
+    /// Number of matrix values without the couplings of outer products, as for multigrid. In a mesh
+    /// of linear tetrahedra a node has 14 neighbours, half of them in the lower triangle.
     double
     n_values_in_parts(const IncrementalPotential &potential)
     {
@@ -31,9 +31,9 @@ namespace Exemplar
                                                          : static_cast<double>(pattern.n_values());
     }
 
-    /// Residual of a linear solve over its right side. Newton's method and the fixed point
-    /// correct the rest in their next iteration; one pass has none, and Schur complements
-    /// are small differences of what these solves give.
+    /// Relative residuals of linear solves. Newton's method and the fixed point correct errors in
+    /// their next iteration; one pass does not, and Schur complements are small differences of
+    /// solutions.
     constexpr double tolerance_of_iterations = 1e-4, tolerance_of_last_word = 1e-8;
 
     double
@@ -44,7 +44,7 @@ namespace Exemplar
       return n_examples > 0 ? tolerance_of_last_word : tolerance_of_iterations;
     }
 
-    /// A Cholesky factorisation for a pattern, unless it is to be chosen and is not worth it.
+    /// A Cholesky factorisation for a pattern; null if the choice is automatic and it does not pay.
     std::unique_ptr<SpdOperator>
     find_cholesky_operator(const SolverParameters     &solver,
                            const unsigned int          n_processes,

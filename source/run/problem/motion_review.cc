@@ -16,14 +16,14 @@ namespace Exemplar
   {
     using Warning = std::optional<std::string>;
 
-    // A handle that goes further than so many times the body's size was given in another unit, and
-    // one that does so in a step is not followed.
+    // Ways relative to the body's size beyond which a motion is in another unit, and beyond which a
+    // step does not follow it.
     constexpr double great_way = 20., great_step = 2.;
 
-    // What is less than so many times the body's size is nothing.
+    // Way relative to the body's size below which there is no motion.
     constexpr double small_way = 1e-3;
 
-    // Where within a step to look: no fraction at which what swings is where it was, too.
+    // Fraction of a step to look at: golden section, so that no oscillation aliases.
     constexpr double within = 0.381966;
 
     double
@@ -35,14 +35,14 @@ namespace Exemplar
       return maximum.value();
     }
 
-    /// The greatest ways of held nodes, by component [m].
+    /// The greatest displacements of held nodes, by component [m].
     struct Travel
     {
       double in_step = 0., in_all = 0.;
-      double beside_step = 0.; ///< within a step, from the straight way
+      double beside_step = 0.; ///< within a step, from linear interpolation
     };
 
-    /// Of the nodes that this process has, in a few of the steps.
+    /// Travel of this process' nodes, sampled in a few of the steps.
     Travel
     look_at_travel(const Handles &handles, const TimeAxis &axis, const Vector &rest)
     {
@@ -84,12 +84,12 @@ namespace Exemplar
       return {};
     }
 
-    /// How a handle begins: its nodes' greatest distances [m], by component.
+    /// Start of a handle: its nodes' greatest distances [m], by component.
     struct Beginning
     {
-      double from_rest;        ///< of what is moved, at rest, from the origin
-      double from_double_rest; ///< of t = 0 from twice the places at rest
-      double from_start;       ///< of t = 0 from where the body starts
+      double from_rest;        ///< moved components: rest positions from the origin
+      double from_double_rest; ///< positions at t = 0 from twice the rest positions
+      double from_start;       ///< positions at t = 0 from the body's initial ones
     };
 
     Beginning
@@ -101,7 +101,7 @@ namespace Exemplar
         for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
         {
           if (moved[dof] != rest[dof]
-              || problem.actions.mass != nullptr) // statics go back to rest from any guess
+              || problem.actions.mass != nullptr) // statics return to rest from any guess
             maximum[2].add(moved[dof] - problem.state.positions[dof]);
           if (moved[dof] == rest[dof] || moved[dof] == problem.state.positions[dof])
             continue; // not held, or not moved
@@ -136,7 +136,8 @@ namespace Exemplar
                       "Initial/Pose.");
     }
 
-    /// Of the handles in all processes; nothing if one is not finite, which the step will say.
+    /// Travel of the handles in all processes; nothing if a motion is not finite, which the step
+    /// reports.
     std::optional<Travel>
     travel_of(const Problem &problem)
     {
@@ -165,9 +166,9 @@ namespace Exemplar
     add_beginnings(const Problem &problem, std::vector<std::string> &warnings)
     {
       const Handles &handles = problem.constraints.handles;
-      Vector         moved   = problem.state.positions; // what is not held stays there
+      Vector         moved   = problem.state.positions; // free nodes stay there
       handles.move(problem.time_axis.time(0), moved);
-      // what is grabbed later begins where it is
+      // handles of later grabs start where they are
       for (unsigned int handle = 0; handle < problem.parameters.handles.size(); ++handle)
         if (const Warning warning = review_beginning(problem, handle, moved))
           warnings.push_back(*warning);

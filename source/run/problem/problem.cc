@@ -16,29 +16,29 @@ namespace Exemplar
 {
   namespace
   {
-    /// Angle [rad] by which the cell that holds an interpolation may have turned before the body
-    /// is turned back, because the matrix becomes singular at 90 degrees. With frozen forces the
-    /// body is always turned back, because what they find depends on that cell's rotation.
+    /// Angle [rad] to which the cell that supports an interpolation may turn before the body is
+    /// turned back: the matrix is singular at 90 degrees. With frozen forces the body is always
+    /// turned back, as solutions depend on that cell's rotation.
     constexpr double max_turn = 0.7;
 
-    /// Whether the body stands on a support of its own, which must not decide how it is turned.
+    /// Whether the body has a support of its own, which must not determine its rotation.
     bool
     turns_freely(const Problem &problem)
     {
       return problem.constraints.support && traits_of(problem.parameters.model.law()).turns_freely;
     }
 
-    /// Handles hold as they do in a step that begins at this time.
+    /// Let handles hold as in a step that begins at this time.
     void
     follow_time(Problem &problem, const double time)
     {
       if (!problem.constraints.follow_time(time, problem.parameters, problem.body))
         return;
       problem.potential.get_tangent().renew_pattern();
-      problem.solver->forget(); // what it remembers is of other unknowns
+      problem.solver->forget(); // its memory is of other unknowns
     }
 
-    /// The path of an interpolation begins at the pose that it begins with, unless another is asked for.
+    /// An interpolation starts at the example of greatest weight, unless Initial gives a pose.
     void
     start_interpolation(const InitialParameters &initial, const ExamplePoses &poses, State &state)
     {
@@ -135,7 +135,7 @@ namespace Exemplar
         && turn_to_support(*constraints.support, parameters.model.is_frozen() ? 0. : max_turn,
                            next.positions, body.exchange()))
     {
-      solver->forget(); // what it remembers has not turned with the body
+      solver->forget(); // its memory has not turned with the body
       start(next);
     }
     const unsigned int factorizations_before = system.n_new_factorizations();
@@ -162,7 +162,7 @@ namespace Exemplar
         on_step(next, interval.size);
     }
     else
-      solver->forget(); // what it remembers has seen the step that failed
+      solver->forget(); // its memory includes the failed step
     return report;
   }
 
@@ -272,7 +272,7 @@ namespace Exemplar
         all.push_back(warning);
     all.insert(all.end(), actions.warnings.begin(), actions.warnings.end());
     append(&constraints.handles);
-    // statics refuse what can turn
+    // statics refuse bodies that can rotate
     for (const std::string &warning : actions.mass != nullptr
                                           ? constraints.describe_single_nodes(body)
                                           : constraints.describe_pulled_nodes(parameters, body))

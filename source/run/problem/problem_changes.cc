@@ -8,13 +8,13 @@
 
 #include <utility>
 
-// What of a problem may change between its steps, and what follows from that.
+// Changes of a problem between its steps, and the updates that follow.
 
 namespace Exemplar
 {
   namespace
   {
-    /// There are loads from now on. Returns whether there were none.
+    /// Make Loads if there are none. Returns whether there were none.
     bool
     make_loads(Problem &problem)
     {
@@ -40,7 +40,7 @@ namespace Exemplar
     constraints.change_handles(change, parameters, body);
     changes.count("grab() or let_go()");
     potential.get_tangent().renew_pattern();
-    solver->forget(); // what it remembers is of other unknowns
+    solver->forget(); // its memory is of other unknowns
   }
 
   void
@@ -95,7 +95,7 @@ namespace Exemplar
   Problem::set_gravity(const std::array<double, 3> &acceleration)
   {
     if (make_loads(*this))
-      lab.reset(); // which has no such term
+      lab.reset(); // has no such term
     changes.count("gravity");
     actions.loads->set_gravity(acceleration, body.fe_space, body.material);
     parameters.loads.gravity = acceleration;
@@ -106,7 +106,7 @@ namespace Exemplar
   Problem::set_nodal_forces(Vector forces)
   {
     if (make_loads(*this))
-      lab.reset(); // which has no such term
+      lab.reset(); // has no such term
     changes.count("nodal_forces");
     actions.loads->set_nodal_forces(std::move(forces));
     start(state);
@@ -187,7 +187,7 @@ namespace Exemplar
     check_damping(mass_damping, stiffness_damping);
     changes.count("mass_damping or stiffness_damping");
     actions.integrator->set_damping(mass_damping, stiffness_damping);
-    solver->forget(); // what it remembers has been damped otherwise
+    solver->forget(); // its memory is of other damping
     parameters.time.mass_damping      = mass_damping;
     parameters.time.stiffness_damping = stiffness_damping;
   }

@@ -15,8 +15,8 @@ namespace Exemplar
       return parameters.scene == SceneKind::dynamic;
     }
 
-    /// Strains of many examples are what an iteration reads most of, so steps that are not solved further
-    /// than the rounding of single precision take them rounded.
+    /// With many examples, iterations are bound by reading their strains, so that steps solved to
+    /// no more than single precision store them in it.
     ExampleParameters
     example_parameters(const SceneParameters &parameters)
     {
@@ -38,7 +38,7 @@ namespace Exemplar
                                      inputs.fields.nodes, parameters.material.mass_matrix);
     }
 
-    /// Whether steps descend on one energy, the same before and after a step.
+    /// Whether steps minimise one energy, the same before and after a step.
     bool
     has_one_energy(const SceneParameters &parameters)
     {
@@ -116,7 +116,7 @@ namespace Exemplar
 
   namespace
   {
-    /// The law that its constants choose for a cell, or this one.
+    /// The law that a cell's constants select, else `law`.
     CellLaw
     chosen_law(const Material &material, const unsigned int cell, CellLaw law)
     {

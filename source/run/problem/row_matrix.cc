@@ -14,7 +14,7 @@ namespace Exemplar
     const auto n              = static_cast<int>(lower.n());
     const auto for_each_entry = [&](const auto &function)
     {
-      // entries left of the diagonal ascend by the columns of `lower`, then those from it on do
+      // entries left of the diagonal come first, in the order of the columns of `lower`
       for (int column = 0; column < n; ++column)
         for (int entry = lower.column_start[column]; entry < lower.column_start[column + 1];
              ++entry)
@@ -68,7 +68,7 @@ namespace Exemplar
       std::vector<std::pair<int, double>> row;
       for (auto entry = nodal.begin(dof / 3); entry != nodal.end(dof / 3); ++entry)
         row.emplace_back(3 * entry->column() + dof % 3, entry->value());
-      std::sort(row.begin(), row.end()); // deal.II begins with the diagonal
+      std::sort(row.begin(), row.end()); // deal.II puts the diagonal first
       for (const auto &[column, value] : row)
       {
         matrix.column.push_back(column);

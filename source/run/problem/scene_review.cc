@@ -17,18 +17,18 @@ namespace Exemplar
   {
     using Warning = std::optional<std::string>;
 
-    // Up to the first, elements are verified (doc/measured.md); beyond the second, linear elements
-    // lock that have no patches.
+    // Poisson's ratios up to which elements are verified (doc/measured.md), and from which linear
+    // elements without patches lock.
     constexpr double max_verified_ratio = 0.4999, locking_ratio = 0.49;
 
-    // Forces out of balance by more than this are no equilibrium, and steps beside their limit by
-    // more than that no steps.
+    // Residual tolerances beyond which states are no equilibria, and step tolerances beyond which
+    // they are far from the limit.
     constexpr double great_tolerance = 0.05, great_step_tolerance = 0.2;
 
-    // So many time constants of damping in a step leave nothing of a motion.
+    // Time constants of damping in a step beyond which no motion is left.
     constexpr double great_damping = 100.;
 
-    // Edges that differ so much in length make bad cells.
+    // Ratios of edge lengths from which cells are badly shaped.
     constexpr double great_aspect = 50.;
 
     Warning
@@ -53,7 +53,7 @@ namespace Exemplar
       return {};
     }
 
-    // Of the stable neo-Hookean energy, Eq. (34), the rest pose is the lowest state from here on.
+    // Poisson's ratio from which the rest pose minimises the stable neo-Hookean energy, Eq. (34).
     constexpr double least_neo_hookean_ratio = -0.88;
 
     Warning
@@ -74,8 +74,8 @@ namespace Exemplar
              + " at least, or Model/Background = corotational.";
     }
 
-    // Fibres so many times stiffer than the material around them, and a yield stress of so small a part of Young's
-    // modulus: states were found 1e-2 of the body's size apart where the tolerance was 1e-8 and where it was 1e-12.
+    // Relative stiffness of fibres, and yield stress over Young's modulus, at which states with
+    // tolerances 1e-8 and 1e-12 were found to differ by 1e-2 of the body's size.
     constexpr double great_fibres = 1e4, little_yield = 1e-5;
 
     Warning
@@ -162,7 +162,7 @@ namespace Exemplar
                "as by min(t, 1).";
     }
 
-    /// A motion along what is not held is not made.
+    /// Warn of motions in components that are not held, which have no effect.
     Warning
     review_components(const HandleParameters &handle)
     {
@@ -212,7 +212,8 @@ namespace Exemplar
              "body that rests in its rest pose.";
     }
 
-    /// A file that makes the body begin; a function may turn it inside out on purpose.
+    /// Warn of flaws of an initial pose from a file; a formula may turn the body inside out on
+    /// purpose.
     Warning
     review_initial_pose(const Problem &problem)
     {

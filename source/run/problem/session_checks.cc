@@ -14,7 +14,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// What a session has made of a problem, as far as later events depend on it.
+    /// The effects of a session on a problem that later events depend on.
     class Rehearsal
     {
     public:
@@ -34,7 +34,7 @@ namespace Exemplar
         change([this](Handles &handles) { handles.restore(holding); });
       }
 
-      /// Throws UserError for what would be refused now.
+      /// Throws UserError if the problem would refuse the event.
       void
       follow(const SessionEvent &event)
       {
@@ -55,14 +55,15 @@ namespace Exemplar
       }
 
     private:
-      /// As Problem::change_handles() does it, which also looks at whether a static body may move freely.
+      /// Change handles as Problem::change_handles(), which also checks whether a static body may
+      /// move.
       void
       change(const std::function<void(Handles &)> &action)
       {
         problem.constraints.change_handles(action, problem.parameters, problem.body);
       }
 
-      /// Two handles would pull at what both hold.
+      /// Throws UserError if another handle holds one of the nodes, too.
       void
       check_free(const SessionEvent &event) const
       {
@@ -115,7 +116,7 @@ namespace Exemplar
       }
 
       Problem                            &problem;
-      const std::vector<Handles::Holding> holding; ///< at the beginning
+      const std::vector<Handles::Holding> holding; ///< of the handles at the beginning
       Material                            material;
       std::set<std::string>               springs, held; ///< by name
     };

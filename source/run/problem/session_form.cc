@@ -15,7 +15,7 @@ namespace Exemplar
   {
     constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
 
-    /// How many nodes and numbers a deed takes.
+    /// Numbers of nodes and numbers of a kind of event.
     struct Counts
     {
       std::size_t nodes, numbers;

@@ -13,7 +13,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// The scene in quadratic elements, of which a system is solved and no step is made.
+    /// The scene in quadratic elements, for solving one system without steps.
     SceneParameters
     quadratic_scene(SceneParameters scene)
     {
@@ -29,7 +29,7 @@ namespace Exemplar
       return scene;
     }
 
-    /// Of a linear field: in the middle of an edge the mean of its ends.
+    /// Interpolate a linear field at quadratic nodes: means at edge midpoints.
     Vector
     on_quadratic_nodes(const FESpace &fe_space, const Vector &linear)
     {
@@ -43,7 +43,8 @@ namespace Exemplar
       return field;
     }
 
-    /// What laws remember in the one point of each linear cell, in all points of the quadratic one.
+    /// Copy the law's history of the one point of each linear cell to all points of the quadratic
+    /// one.
     std::vector<double>
     on_quadratic_points(const std::vector<double> &linear, const unsigned int n_cells)
     {
@@ -55,7 +56,7 @@ namespace Exemplar
       return history;
     }
 
-    /// The forces on linear shape functions, which are sums of quadratic ones [N].
+    /// Restrict forces to linear shape functions, which are sums of quadratic ones [N].
     Vector
     on_linear_nodes(const FESpace &fe_space, const Vector &quadratic, const unsigned int n_dofs)
     {
@@ -69,15 +70,15 @@ namespace Exemplar
       return forces;
     }
 
-    /// The step of implicit Euler [s] in which an error's inertia is that of one which has grown
-    /// with the square of time since the scene began: d'' = 2 d / t^2.
+    /// Length of an implicit Euler step [s] whose inertia is that of an error that has grown with
+    /// the square of time since the scene began: d'' = 2 d / t^2.
     double
     growth_time(const Problem &problem)
     {
       return std::max(problem.state.time, problem.time_axis.step_size(1)) / std::sqrt(2.);
     }
 
-    /// What the forces would accelerate free nodes by, with the mass of each lumped [m/s^2].
+    /// Accelerations of free nodes by the forces, with lumped masses [m/s^2].
     Vector
     accelerations(const Problem &problem, const Vector &gradient)
     {
@@ -90,7 +91,7 @@ namespace Exemplar
       return a;
     }
 
-    /// (sum V |u|^2)^(1/2) with the volume of each node [m^(5/2)].
+    /// (sum V |u|^2)^(1/2) with the volumes V of the nodes [m^(5/2)].
     double
     norm(const FESpace &fe_space, const Vector &u)
     {
@@ -103,8 +104,8 @@ namespace Exemplar
       return std::sqrt(sum);
     }
 
-    /// From the rest pose; of a body that nothing holds, from where a rigid motion brings that
-    /// nearest.
+    /// Displacement from the rest pose; for a body that nothing holds, from the rest pose rigidly
+    /// aligned with `positions`.
     Vector
     displacement(const Problem &quadratic, const Vector &positions)
     {
@@ -116,7 +117,7 @@ namespace Exemplar
       return u;
     }
 
-    /// Of the strain that a small displacement from `positions` makes, by cell [J/m^3].
+    /// Energy densities of the strain by a small displacement from `positions`, by cell [J/m^3].
     std::vector<double>
     energy_densities(const Problem &linear,
                      const Problem &quadratic,
@@ -125,7 +126,7 @@ namespace Exemplar
     {
       const FESpace &fe_space = quadratic.body.fe_space;
       const Material rest     = quadratic.body.material.without_dilatation();
-      // dilatations that patches leave free within them are no error
+      // dilatations that vary within a patch are no error
       const Patches      &patches   = linear.body.patches;
       const bool          are_there = patches.size() > 0;
       std::vector<double> densities(fe_space.n_cells(), 0.);
@@ -160,7 +161,7 @@ namespace Exemplar
     Vector     moves; ///< displacements from there [m]
     State      to;
     Evaluation at;        ///< the present state, with the forces that stay
-    Vector     forces;    ///< what is added to all gradients [N]
+    Vector     forces;    ///< added to all gradients [N]
     double     work = 0.; ///< of loads and inertia along the moves [J]
   };
 
@@ -260,7 +261,8 @@ namespace Exemplar
       if (has_energy && !(decrease >= -1e-4 * length * slope))
         continue;
       correction = std::move(trial);
-      // where the potential is not the parabola that the tangent knows, a further step tells more
+      // where the potential is not quadratic, as the tangent assumes, a further step improves the
+      // estimate
       const double expected = -length * (1. - 0.5 * length) * slope;
       return has_energy
              && std::abs(decrease - expected) > 1e-3 * correction.at.elastic.energy_elastic;
@@ -298,7 +300,7 @@ namespace Exemplar
       Vector           u          = displacement(*quadratic, correction.from.positions);
       u += correction.moves;
       const ElasticEvaluation &corrected = correction.at.elastic;
-      // what rounding leaves of a body at rest is no error
+      // corrections below the rounding of a body at rest are no error
       const double length
           = 1e-10 * problem.body.mesh.diameter() * std::sqrt(fe_space.total_volume());
       const double energy = 1e-20 * unit_energy(fe_space, problem.body.material);

@@ -20,7 +20,7 @@ namespace Exemplar
   {
     using CellTest = std::function<bool(unsigned int cell, const Matrix3<double> &F)>;
 
-    /// Element numbers of the cells for which `test` holds somewhere at the problem's state.
+    /// Element numbers of cells in which `test` holds at a point, at the problem's state.
     std::vector<std::size_t>
     elements_with(const Problem &problem, const CellTest &test)
     {
@@ -50,7 +50,7 @@ namespace Exemplar
       return std::sqrt(std::max({ squares[0], squares[1], squares[2] }));
     }
 
-    /// 1 + 1/nu: a free cell that is stretched further would be thinner than nothing.
+    /// 1 + 1/nu: a free cell that is stretched further would have a negative thickness.
     double
     stretch_limit(const CellMaterial<double> &material)
     {
@@ -101,7 +101,7 @@ namespace Exemplar
           elements.size(), short_text(limit), list_numbers(elements));
     }
 
-    /// Angles [rad] beyond which the linear strain is far from one.
+    /// Rotation [rad] beyond which the linear strain is no useful measure.
     constexpr double great_linear_turn = M_PI / 9.;
 
     std::optional<std::string>
@@ -128,7 +128,7 @@ namespace Exemplar
                "its shapes mean little. Set Model/Strain = corotational.";
     }
 
-    /// The example that prescribed weights name as the only one, if they do in all regions.
+    /// The example with the prescribed weight 1 in all regions; nothing if there is none.
     std::optional<unsigned int>
     only_example(const Problem &problem)
     {
@@ -159,7 +159,7 @@ namespace Exemplar
       return points;
     }
 
-    /// An interpolation that has not arrived where it should.
+    /// A sentence on an interpolation that has missed its example; nothing if it has not.
     std::optional<std::string>
     describe_miss(const Problem &problem)
     {
@@ -183,7 +183,7 @@ namespace Exemplar
                          problem.body.patches.size() > 0 ? ", or Model/Dilatation = cells." : ".");
     }
 
-    /// Whether nothing acts on the body that the rest pose could not bear without strain.
+    /// Whether there are no loads, and held nodes allow the rest pose.
     bool
     is_unloaded(const Problem &problem)
     {
@@ -245,7 +245,7 @@ namespace Exemplar
          { describe_stretched(problem), describe_turned(problem), describe_miss(problem) })
       if (warning)
         all.push_back(*warning);
-    // strains of 1e-4 are no accident, unless cells or weights remember them
+    // strains of 1e-4 are no rounding, unless cells or weights have memory
     const double energy    = problem.evaluation.elastic.energy;
     const bool   remembers = problem.potential.get_cells().get_field().get_batches().remembers()
                            || problem.potential.get_weights().get_memory().in_use();

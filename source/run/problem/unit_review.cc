@@ -20,29 +20,30 @@ namespace Exemplar
   {
     using Warning = std::optional<std::string>;
 
-    // Lengths [m] beyond which a body is more likely of another unit: a hand in millimetres is
-    // 180 long, a metre that was scaled for millimetres .001.
+    // Lengths [m] beyond which a body is probably in another unit: a hand in millimetres is 180
+    // long, a metre that was scaled for millimetres .001.
     constexpr double great_length = 100., small_length = 0.005;
 
-    // Beyond this length [m] what is as soft as this [Pa] is more likely of another unit.
+    // Length [m] beyond which a body as soft as this [Pa] is probably in another unit.
     constexpr double great_soft_length = 20., soft_as_rubber = 1e8;
 
-    // Air has 1.2 kg/m^3, light foam 10, osmium 22,600; in g/cm^3 steel has 7.8, copper 8.96.
+    // Densities [kg/m^3] of air 1.2, light foam 10, osmium 22,600; in g/cm^3 steel has 7.8, copper
+    // 8.96.
     constexpr double light = 9., heavy = 25000.;
 
-    // Jelly has some 1,000 Pa, diamond 1.2e12.
+    // Young's moduli [Pa] of jelly some 1,000, of diamond 1.2e12.
     constexpr double soft = 1000., stiff = 1e13;
 
-    // What sags by less of its length, or is strained by less, may well be meant.
+    // Sag relative to length, and strain, below which gravity is plausible.
     constexpr double great_sag = 0.2, great_strain = 0.05;
 
-    // Loads that a body of such a section and stiffness cannot bear.
+    // Strain by a load beyond which it is implausible for the body's section and stiffness.
     constexpr double great_pull = 5.;
 
-    // More files fill a disk.
+    // Number of files that fill a disk.
     constexpr unsigned int many_frames = 1000000;
 
-    // So many turns in a run were not meant [rad].
+    // Angle [rad] in a run beyond which it was hardly intended.
     constexpr double great_angle = 4. * M_PI;
 
     const std::string scale_remedy = "Mesh/Scale = 0.001 makes metres of millimetres.";
@@ -125,7 +126,7 @@ namespace Exemplar
       return boxes;
     }
 
-    /// From the nearest place in a box to a point.
+    /// Vector to a point from the nearest point of a box.
     dealii::Tensor<1, 3>
     way_from(const std::array<Range, 3> &box, const dealii::Point<3> &point)
     {
@@ -139,7 +140,7 @@ namespace Exemplar
     review_weight(const Problem &problem, const BodyMeasures &measures)
     {
       if (problem.parameters.loads.balanced)
-        return {}; // it does not sag
+        return {}; // a balanced body does not sag
       const WeightEstimate estimate = estimate_weight(problem, measures);
       const double         sag      = estimate.sag / measures.length();
       if (!(sag >= great_sag) && !(estimate.strain >= great_strain))
@@ -190,7 +191,7 @@ namespace Exemplar
              + ". It is a time in s, not a part or per cent: what swings faster than it dies out.";
     }
 
-    /// Named loads at the end, over what would stretch a bar as thick as the body to twice its length.
+    /// Warn of named loads whose sum at the end is large relative to E times the body's section.
     Warning
     review_force(const Problem &problem, const BodyMeasures &measures)
     {
@@ -204,7 +205,7 @@ namespace Exemplar
       }
       catch (const SolverFailure &)
       {
-        return {}; // the step will say so
+        return {}; // the step reports it
       }
       dealii::Tensor<1, 3> total;
       for (unsigned int dof = 0; dof < force.size(); ++dof)
@@ -241,7 +242,7 @@ namespace Exemplar
       return formulas;
     }
 
-    /// The greatest magnitude of an angle [rad] at the corners of the body and at a few times.
+    /// The greatest magnitude of an angle [rad], at the body's corners and a few times.
     double
     greatest_angle(const std::string  &argument,
                    const Problem      &problem,
@@ -263,12 +264,12 @@ namespace Exemplar
       }
       catch (const std::exception &)
       {
-        // it is none by itself: it says nothing
+        // no formula on its own: no warning
       }
       return maximum;
     }
 
-    /// The first formula with an angle that looks like degrees.
+    /// Warn of the first formula with an angle that looks like degrees.
     Warning
     review_angles(const Problem &problem, const BodyMeasures &measures)
     {

@@ -16,7 +16,7 @@ namespace Exemplar
              && text.compare(text.size() - end.size(), end.size(), end) == 0;
     }
 
-    /// The files that a selection names.
+    /// Append the names of the files that a selection reads.
     void
     append_names(const Selection          &selection,
                  const std::string        &key,
@@ -59,7 +59,7 @@ namespace Exemplar
     }
     catch (const UserError &)
     {
-      return { name }; // who reads it says that nothing matches
+      return { name }; // its reader reports that nothing matches
     }
   }
 

@@ -10,12 +10,12 @@ namespace Exemplar
 {
   namespace
   {
-    /// Keys that do nothing in some scenes.
+    /// Keys without effect in some scenes.
     struct Ignored
     {
       bool                     are_ignored;
       std::vector<std::string> keys;
-      std::string              why; ///< and the remedy, behind "does nothing "
+      std::string              why; ///< reason and remedy, after "does nothing "
     };
 
     bool
@@ -120,7 +120,7 @@ namespace Exemplar
     const auto                     n_keys = std::count_if(
                             all.begin(), all.end(), [](const DeclaredKey &key) { return key.subsections.size() < 2; });
     const bool is_printed
-        = static_cast<std::ptrdiff_t>(given.size()) >= n_keys; // as parameters.prm
+        = static_cast<std::ptrdiff_t>(given.size()) >= n_keys; // as in parameters.prm
     for (const Ignored &kind : kinds_of_ignored(scene))
       for (const DeclaredKey &key : all)
       {

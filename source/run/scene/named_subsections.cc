@@ -12,13 +12,13 @@ namespace Exemplar
 {
   namespace
   {
-    /// Which of `names` may have been meant by that of a subsection, in sentences; empty if none.
+    /// Sentences on which of `names` a misspelt subsection may mean; empty if none.
     std::string
     meant_name(const std::string              &name,
                const std::string              &section,
                const std::vector<std::string> &names)
     {
-      for (const std::string &several : names) // such as 'left right', which might be one name
+      for (const std::string &several : names) // such as 'left right', perhaps one name
       {
         const std::vector<std::string> words = split_trimmed(several, ' ');
         if (words.size() > 1 && std::find(words.begin(), words.end(), name) != words.end())
@@ -30,7 +30,7 @@ namespace Exemplar
       return "";
     }
 
-    /// What to say of a subsection that Names does not list.
+    /// Remedy for a subsection that Names does not list.
     std::string
     remedy_of_name(const std::string              &name,
                    const std::string              &section,
@@ -70,7 +70,7 @@ namespace Exemplar
       return a.subsections.size() > 1 && a.subsections[0] == section
              && std::find(names.begin(), names.end(), a.subsections[1]) == names.end();
     };
-    std::vector<std::string> unused_names; // listed, but without a subsection
+    std::vector<std::string> unused_names; // listed names without a subsection
     for (const std::string &name : names)
       if (std::none_of(named.begin(), named.end(),
                        [&](const Assignment &a)

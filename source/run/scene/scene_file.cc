@@ -28,7 +28,7 @@ namespace Exemplar
       return overrides;
     }
 
-    /// Of keys that the command line sets more than once.
+    /// Warnings of keys that the command line sets more than once.
     std::vector<std::string>
     warnings_of_doubles(const std::vector<Assignment> &overrides)
     {
@@ -43,7 +43,8 @@ namespace Exemplar
       return warnings;
     }
 
-    /// Named subsections are the ones two deep: Handles/NAME, Loads/NAME, Material/region N.
+    /// Whether the subsection is named, that is two deep: Handles/NAME, Loads/NAME, Material/region
+    /// N.
     bool
     is_named(const Assignment &assignment)
     {
@@ -60,7 +61,7 @@ namespace Exemplar
       return sections;
     }
 
-    /// The regions that have subsections of Material, by material id or by name.
+    /// The regions with subsections of Material, by material id or by name.
     struct Regions
     {
       std::set<unsigned int> ids;
@@ -122,7 +123,7 @@ namespace Exemplar
     std::vector<Assignment> named(first_named, assignments.end());
     assignments.erase(first_named, assignments.end());
 
-    // refused when the named subsections are declared, so that their keys can be suggested, too
+    // refused after the named subsections are declared, so that their keys can be suggested
     const auto first_unknown
         = std::stable_partition(assignments.begin(), assignments.end(),
                                 [&](const Assignment &a) { return keys.declares(a.path()); });
@@ -141,7 +142,7 @@ namespace Exemplar
     declare_named_subsections(named);
     keys.apply(unknown, directory());
     keys.apply(named, directory());
-    if (find_assignment(assignments, "Scene") == nullptr) // after misspelt names of it
+    if (find_assignment(assignments, "Scene") == nullptr) // after misspelt keys, which may be it
       throw UserError(parameters.name + ": Scene is not set"
                       + (trim(text).empty() && !file.empty() ? ", as the file is empty" : "")
                       + ". Add a line 'set Scene = dynamic' (or static, or "
@@ -156,7 +157,7 @@ namespace Exemplar
       set_interpolation(assignments);
     const auto is_overridden = [&](const std::string &key)
     { return !text.empty() && find_assignment(overrides, key) != nullptr; };
-    if (!is_overridden("Scene") && !is_overridden("Mesh/Generator")) // else the rest may stay
+    if (!is_overridden("Scene") && !is_overridden("Mesh/Generator")) // else ignored keys are fine
       complete->warnings = warn_of_ignored_keys(*complete, keys, assignments);
     for (const std::string &double_warning : warnings_of_doubles(overrides))
       warnings.push_back(double_warning);
@@ -214,7 +215,7 @@ namespace Exemplar
   {
     const Regions regions = material_regions(assignments);
     parameters.material.declare_regions(keys, regions.ids, regions.names);
-    // deal.II rounds the text of a default to six digits: take over the text that was set
+    // deal.II rounds default texts to six digits: take over the text that was set
     const auto take_over = [&](const std::string &subsection)
     {
       for (const DeclaredKey &key : keys.keys())
@@ -269,7 +270,7 @@ namespace Exemplar
                         + ". Remove the line, or choose Scene = static.");
       keys.set("Examples/" + key, value);
     };
-    const ExampleParameters given = parameters.examples; // what is set changes them
+    const ExampleParameters given = parameters.examples; // before completion
     require("Importance", "1", given.importance == complete->examples.importance);
     require("Weights", "prescribed", given.weights == complete->examples.weights);
     if (given.prescribed_weights.empty())
@@ -300,7 +301,7 @@ namespace Exemplar
     for (const DeclaredKey &key : get_keys())
       if ((key.path() != "Examples/Poses" && key.path() != "Examples/Weight maps")
           || parameters.examples.in_use())
-        append_files(key, files); // with importance 0 these need not be there
+        append_files(key, files); // with importance 0 they need not exist
     return files;
   }
 

@@ -20,14 +20,14 @@ namespace Exemplar
       examples.weights    = WeightRule::prescribed;
       if (examples.prescribed_weights.empty() && examples.n_examples() == 2)
         examples.prescribed_weights = "1-t; t"; // from the first to the second
-      // no load squeezes the body, and cells arrive at poses turned by more than 540 degrees
+      // there are no squeezing loads, and cells may be rotated by more than 540 degrees
       if (model.dilatation == DilatationKind::automatic)
         model.dilatation = DilatationKind::cells;
     }
     if (const std::optional<CellLaw> law = material.law_of_grain(); law)
       model.strain = law_of_grain(*law);
     model.complete();
-    // the ridge would be all that moves the rest pose
+    // else the ridge alone would move the balanced rest pose
     if (loads.balanced && examples.weights == WeightRule::simplex
         && examples.weight_penalty == "auto")
       examples.weight_penalty = "weak";

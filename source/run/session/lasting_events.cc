@@ -41,7 +41,7 @@ namespace Exemplar
   LastingEvents::get() const
   {
     Session session;
-    // a static body must be held at all times, so nothing is let go of before all is held
+    // static bodies must always be held, so that handles are released only after all are held
     for (const Subject &subject : subjects)
       for (const auto &event : { subject.made, subject.moved })
         if (event)

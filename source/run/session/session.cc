@@ -16,7 +16,7 @@ namespace Exemplar
   {
     const std::string head = "exemplar session 1";
 
-    constexpr std::size_t max_name = 200; ///< bytes; those of the live page are shorter
+    constexpr std::size_t max_name = 200; ///< bytes; names of the live page are shorter
 
     template <typename Number>
     std::vector<Number>
@@ -91,7 +91,7 @@ namespace Exemplar
     for (unsigned int number = 2; std::getline(lines, line); ++number)
     {
       const std::string place = fmt::format("{}:{}", file.string(), number);
-      if (lines.eof()) // its new line was not written, so a number at its end may be cut
+      if (lines.eof()) // no newline at the end: the last number may be cut
       {
         session.warnings.push_back(place
                                    + ": the last line has no end, as if the program that wrote it "

@@ -4,19 +4,22 @@
 
 #include <exemplar/run/problem/problem.h>
 
-// What derivatives_of_slope() relies on.
+// Preconditions of derivatives_of_slope().
 
 namespace Exemplar
 {
-  /// Whether some have nine constants, which do not follow from Young's modulus and Poisson's ratio.
+  /// Whether some cell is orthotropic: nine constants, which Young's modulus and Poisson's ratio do
+  /// not give.
   bool
   has_orthotropic_cells(const Problem &problem);
 
-  /// Throws UserError, by name, for what the potential has and derivatives_of_slope() does not know.
+  /// Throws UserError, by name, for terms of the potential that derivatives_of_slope() does not
+  /// know.
   void
   require_known_potential(const Problem &problem);
 
-  /// The same for a static scene whose equilibrium has been found.
+  /// Throws UserError as above, and for scenes that are not static or whose state depends on the
+  /// path.
   void
   require_known_scene(const Problem &problem);
 

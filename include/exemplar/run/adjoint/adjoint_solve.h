@@ -8,28 +8,30 @@
 
 namespace Exemplar
 {
-  /// The direction (a, b) with Phi'' (a, b) = (dJ/dx, dJ/dw) on the free degrees of freedom and the weights
-  /// that are at no bound, whose changes keep the sums of each region; zero elsewhere. It is solved by a
-  /// factor of the exact tangent at the state and corrected with the exact derivatives. Throws SolverFailure
-  /// if the tangent is not positive definite, or the correction does not converge.
+  /// The direction (a, b) with Phi'' (a, b) = (dJ/dx, dJ/dw) on the free degrees of freedom and on
+  /// the weights at no bound, whose changes sum to zero in each region; (a, b) is zero elsewhere.
+  /// Solved with a factor of the exact tangent at the state, then corrected with the exact
+  /// derivatives. Throws SolverFailure if the tangent is not positive definite, or the correction
+  /// does not converge.
   struct AdjointSolution
   {
     Direction        direction;
-    SlopeDerivatives derivatives; ///< of the slope along it
+    SlopeDerivatives derivatives; ///< derivatives of the slope along `direction`
   };
 
   /// All derivatives of the slope along a direction.
   using FindDerivatives = std::function<SlopeDerivatives(const Direction &)>;
 
-  /// At the state to which the system went last. `find` is called with the direction of the solution last.
+  /// Adjoint solution at the state of the system's last go_to_state(). The last call of `find` has
+  /// the solution's direction.
   AdjointSolution
   solve_adjoint(AdjointSystem &system, const Direction &by_state, const FindDerivatives &find);
 
-  /// At the state of a static problem, where its potential has this evaluation.
+  /// Adjoint solution at the state of a static problem, where its potential has this evaluation.
   AdjointSolution
   solve_adjoint(Problem &problem, const Evaluation &evaluation, const Direction &by_state);
 
-  /// Whether steps find this weight and neither a bound holds it nor what it remembers.
+  /// Whether each weight is an unknown that neither a bound nor its memory (yield) holds in place.
   std::vector<bool>
   are_inactive(const Problem &problem);
 } // namespace Exemplar

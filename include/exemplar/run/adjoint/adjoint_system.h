@@ -7,29 +7,31 @@
 
 namespace Exemplar
 {
-  /// The equations of AdjointSolution at one state after the other; with Z = A^-1 G they are those of Eq. (11).
-  /// The pattern of the matrix is analysed once.
+  /// The linear equations of AdjointSolution at one state after the other; with Z = A^-1 G they are
+  /// those of Eq. (11). The sparsity pattern is analysed once.
   class AdjointSystem
   {
   public:
-    /// The problem must outlive it, and hold the same nodes.
+    /// The problem must outlive it, and keep the same free nodes.
     explicit AdjointSystem(Problem &problem);
 
-    /// Go to the problem's state, where its potential has this evaluation. Throws SolverFailure if the exact
-    /// tangent there is not positive definite, unless cells are guarded by Eq. (16).
+    /// Move to the problem's state, where its potential has this evaluation, and factorise. Throws
+    /// SolverFailure if the exact tangent there is not positive definite, unless cells are guarded
+    /// by Eq. (16).
     void
     go_to_state(const Evaluation &evaluation);
 
-    /// Let the factor have all digits at this state and those to come. Returns whether it had fewer.
+    /// Factorise in full precision at this state and later ones. Returns whether the precision was
+    /// lower.
     bool
     sharpen();
 
-    /// Add to the direction what takes this right side to zero, by the factor.
+    /// Add to `direction` the solution of the factorised equations with this right side.
     void
     add_solution(const Direction &right_side, Direction &direction);
 
-    /// What a direction with these derivatives leaves of a right side, with the multiplier of each region
-    /// that takes most of it; returns its size relative to that of `by_state`.
+    /// rest = by_state - Phi'' direction, less the multiplier of each region (the mean of its
+    /// weights). Returns the greatest entry, relative to the greatest of the terms that cancel.
     double
     residual(const Direction        &by_state,
              const Direction        &direction,
@@ -39,11 +41,12 @@ namespace Exemplar
     Direction
     zero() const;
 
-    /// A residual without what is held, what is at a bound, and the multipliers.
+    /// A residual with zeros at held degrees of freedom and weights at bounds, and without
+    /// multipliers.
     Direction
     projected(Direction rest) const;
 
-    /// What a weight's residual [J] counts beside one of a degree of freedom [N].
+    /// Factor that makes residuals of weights [J] comparable to those of degrees of freedom [N].
     double
     scale_of_weights();
 
@@ -57,11 +60,11 @@ namespace Exemplar
     void
     factorize(double convexity);
 
-    /// The greatest entry of G b, which a function of the weights alone has for its forces.
+    /// The greatest entry of G b, the scale of the forces if J depends on the weights alone.
     double
     greatest_of_columns(const Direction &direction);
 
-    /// The greatest sum of magnitudes in G^T a and H b, which may cancel.
+    /// The greatest sum of magnitudes in G^T a and H b, whose terms may cancel.
     double
     scale_of_terms(const Direction &direction);
 
@@ -82,8 +85,8 @@ namespace Exemplar
     std::vector<double>              Z; ///< A^-1 G
     dealii::FullMatrix<double>       inverse;
     double                           size_of_sums = 1.;
-    bool         is_rough      = true; ///< refined solutions need few digits of a factor
-    unsigned int guarded_cells = 0;    ///< at the state
+    bool is_rough = true; ///< whether factors have low precision, which refined solutions allow
+    unsigned int guarded_cells = 0; ///< number of them at the state
   };
 } // namespace Exemplar
 

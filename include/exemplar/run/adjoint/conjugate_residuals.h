@@ -8,17 +8,17 @@
 
 namespace Exemplar
 {
-  /// Generalised conjugate residuals (Eisenstat, Elman and Schultz 1983): of the steps that an approximate
-  /// inverse proposes, those sums that leave the least of a right side. They end where the inverse is exact at
-  /// once, and also where it is only near.
+  /// Generalised conjugate residuals (Eisenstat, Elman and Schultz 1983): minimises the residual
+  /// over the preconditioned steps; one step if the preconditioner is the exact inverse.
   class ConjugateResiduals
   {
   public:
-    /// `of_weights`: what a weight's entry counts beside one of a degree of freedom.
+    /// `of_weights`: factor of a weight's entry relative to a degree of freedom's in the inner
+    /// product.
     explicit ConjugateResiduals(double of_weights) : of_weights(of_weights) {}
 
-    /// Take from `rest` what the best multiple of `step`, of which `image` is the image, takes of it, and add
-    /// that to `solution`. Earlier steps keep what they have taken.
+    /// Orthonormalise `image`, the image of `step`, against the earlier ones, and subtract from
+    /// `rest` its projection on it; add the same multiple of the step to `solution`.
     void
     add(Direction step, Direction image, Direction &solution, Direction &rest);
 

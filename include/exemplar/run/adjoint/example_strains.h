@@ -8,16 +8,17 @@
 
 namespace Exemplar
 {
-  /// The derivative by F of what has the derivative `by_strain` by the strain of F.
+  /// Chain rule: the derivative by F of a function with the derivative `by_strain` by the strain of
+  /// F.
   Matrix3<double>
   pulled_back(CellLaw law, const Matrix3<double> &F, const Matrix3<double> &by_strain);
 
-  /// (s_1+s_2)(s_2+s_3)(s_3+s_1) of a stretch S.
+  /// (s_1+s_2)(s_2+s_3)(s_3+s_1) of a stretch S with the principal stretches s_i.
   double
   product_of_sums(const Matrix3<double> &S);
 
-  /// The strains of example poses as they are, before a part of them acts, and what the bounds of guards have
-  /// from them.
+  /// The full strains of the example poses, before Examples/Acts on selects a part of them, and the
+  /// poses that set the bounds of guards.
   class ExampleStrains
   {
   public:
@@ -30,18 +31,18 @@ namespace Exemplar
       return laws;
     }
 
-    /// Of example i at a point.
+    /// Strain of example i at a point.
     Matrix3<double>
     strain(const unsigned int point, const unsigned int i) const
     {
       return unpack(strains[point * poses.size() + i]);
     }
 
-    /// S of an example at a point where the law has rotations.
+    /// Stretch S of an example at a point where the law has rotations.
     Matrix3<double>
     stretch(unsigned int point, unsigned int i) const;
 
-    /// sum w_i E_i.
+    /// sum w_i E_i, the blend of the examples' strains.
     Matrix3<double>
     wish(unsigned int point, const std::vector<double> &weights) const;
 
@@ -51,11 +52,12 @@ namespace Exemplar
       unsigned int point, pose;
     };
 
-    /// Where the example is of which p_0 of Eq. (16) is half the product p; nothing if none is.
+    /// The example and point whose product p gives p_0 = p/2 of Eq. (16); nothing if no example
+    /// lowers p_0.
     std::optional<Place>
     place_of_guard_bound() const;
 
-    /// The example that says where the guard (26) of a patch begins; nothing if none does.
+    /// The example whose |F|^2 sets the bound of the guard (26) of a patch; nothing if none does.
     std::optional<unsigned int>
     pose_of_bound(const unsigned int patch) const
     {
@@ -74,12 +76,12 @@ namespace Exemplar
     std::vector<std::optional<unsigned int>> bound_poses; ///< of each patch
   };
 
-  /// Take the derivatives by strains to the poses that have them, and to the rest positions.
+  /// Chain rule: add the derivatives by strains to those by the poses and by the rest positions.
   void
   carry_strains_to_poses(const Problem &problem, SlopeDerivatives &sums);
 
-  /// Of a slope with this derivative by p_0 of Eq. (16), which follows from the example that it must leave as
-  /// it is.
+  /// Add a slope's derivatives through p_0 of Eq. (16), which the example with the least product p
+  /// sets; `by_bound` is its derivative by p_0.
   void
   add_slope_of_guard_bound(const Problem        &problem,
                            const ExampleStrains &strains,

@@ -21,12 +21,12 @@ namespace Exemplar
 
   using Functional = std::function<FunctionalValue(Problem &)>;
 
-  /// Of a name as the scene has it: energy_elastic, reaction_NAME_x or displacement_x of SELECTION. Throws
-  /// UserError for anything else.
+  /// The functional of this name in Output/Functional: energy_elastic, reaction_NAME_x or
+  /// displacement_x of SELECTION. Throws UserError for anything else.
   Functional
   make_functional(const std::string &name, const Problem &problem);
 
-  /// What summary.json says of it.
+  /// The functional's entry in summary.json.
   struct FunctionalReport
   {
     std::string           name;
@@ -35,12 +35,12 @@ namespace Exemplar
     std::string           failure;    ///< why there is no correction
   };
 
-  /// Throws UserError if the scene names a functional that it has not, or one whose gradients are not
-  /// known.
+  /// Throws UserError if the scene names a functional that does not exist there, or one whose
+  /// gradients are not known.
   void
   require_functional(const Problem &problem);
 
-  /// At the state after the last step of a scene that names a functional, else nothing.
+  /// Value and correction after the last step of a scene that names a functional; else nothing.
   std::optional<FunctionalReport>
   functional_at_end(Problem &problem);
 } // namespace Exemplar

@@ -6,12 +6,12 @@
 #include <exemplar/kernels/hyper_dual.h>
 #include <exemplar/run/adjoint/point_material.h>
 
-// Laws are those of kernels/cell_model.h: what is written there for registers is taken here for numbers that carry
-// derivatives.
+// The laws of kernels/cell_model.h, whose templates take SIMD registers there and numbers with
+// derivatives here.
 
 namespace Exemplar
 {
-  /// Whether forces are the derivative of an energy that knows nothing of earlier steps.
+  /// Whether forces are the derivative of an energy that does not depend on earlier steps.
   template <typename Cell>
   constexpr bool has_potential = Cell::traits.n_history == 0
                                  && !(Cell::traits.exact_is_rotated

@@ -10,12 +10,13 @@
 
 namespace Exemplar
 {
-  /// What a patch sums up over its points, times their volumes.
+  /// Integrands whose integrals over a patch, by its points and their volumes, its potential
+  /// depends on.
   enum class PatchSum
   {
     volume,        ///< 1
-    lambda,        ///< what it takes of the elasticity [Pa]
-    trace,         ///< tr e, continued in thin cells
+    lambda,        ///< the part of the elasticity that patches take [Pa]
+    trace,         ///< tr e, continued smoothly in thin cells
     wish,          ///< tr D
     square,        ///< |F|^2
     trace_square,  ///< the square of the trace
@@ -23,10 +24,10 @@ namespace Exemplar
     volume_change, ///< det F - 1
     importance,    ///< eta
     excess,        ///< lambda of C_y, Eq. (38) [Pa]
-    bound          ///< |F|^2 of the example that says where the guard (26) begins
+    bound          ///< |F|^2 of the example that sets the bound of the guard (26)
   };
 
-  /// All of them.
+  /// The sums of a patch, one for each PatchSum.
   template <typename Number>
   struct PatchSums
   {
@@ -47,12 +48,12 @@ namespace Exemplar
     }
   };
 
-  /// What is the same in all patches, but for the laws.
+  /// Settings that all patches of a law share.
   struct PatchScene
   {
-    double blended_part; ///< of the blended energy
-    bool   has_guard;    ///< of Eq. (26)
-    bool   knows_volume; ///< Eq. (37)
+    double blended_part; ///< share of the blended energy
+    bool   has_guard;    ///< whether Eq. (26) acts
+    bool   knows_volume; ///< whether Eq. (37) acts
     bool   has_own_examples;
   };
 
@@ -67,7 +68,7 @@ namespace Exemplar
     return z * z * z * (Number(10.) - Number(15.) * z + Number(6.) * z * z);
   }
 
-  /// `importance` is that of all cells [J].
+  /// Potential of a patch [J]; `importance` is eta of all cells.
   template <typename Number>
   Number
   patch_potential(const PatchScene &scene, const PatchSums<Number> &of, const Number &importance)

@@ -7,12 +7,12 @@
 
 #include <optional>
 
-// The constants of a cell as functions of Young's modulus, Poisson's ratio and the importance of examples, for
-// numbers that carry derivatives by these. Material has the same for numbers alone.
+// The constants of a cell as functions of Young's modulus, Poisson's ratio and the importance of
+// examples, for numbers that carry derivatives. Material has the same for plain numbers.
 
 namespace Exemplar
 {
-  /// What of a cell's material is constant, and where its functions are taken.
+  /// The data of a cell's material that carry no derivatives.
   struct PointMaterial
   {
     PointMaterial(const Material &material,
@@ -26,12 +26,12 @@ namespace Exemplar
     ActsOn                  acts_on;
     Material::BodyConstants body;
     ExampleElasticity       of_examples;
-    double                  importance;      ///< factor of that of all
-    Vector3<double>         axis;            ///< along fibres; 0 where nothing asks for it
-    double                  part_of_patches; ///< 1 where patches take the volume part, and else 0
+    double                  importance;      ///< importance of the cell, a factor of the global eta
+    Vector3<double>         axis;            ///< fibre direction; 0 if no law needs it
+    double                  part_of_patches; ///< 1 if patches take the volume part, else 0
   };
 
-  /// Isotropic, with fibres where alpha is not 0.
+  /// Isotropic constants, with fibres if alpha is not 0.
   template <typename Number>
   Fibrous<Number>
   with_fibres(const Number &E, const Number &nu, const Number &alpha, const Vector3<double> &axis)
@@ -65,7 +65,7 @@ namespace Exemplar
     return A;
   }
 
-  /// C^-1:T.
+  /// C^-1:T, by the formula of Sherman and Morrison.
   template <typename Number>
   Matrix3<Number>
   compliance(const Fibrous<Number> &C, const Matrix3<Number> &T)
@@ -93,7 +93,7 @@ namespace Exemplar
     return result;
   }
 
-  /// The functions at a cell.
+  /// The constants of a cell for given E, nu and eta.
   template <typename Number>
   class MaterialFunctions
   {
@@ -130,14 +130,14 @@ namespace Exemplar
       return of.of_examples.is_own();
     }
 
-    /// Whether target() is eta times what a point is drawn to.
+    /// Whether target() is eta times the blend of the examples' strains.
     bool
     has_scaled_target() const
     {
       return of.acts_on == ActsOn::all && !has_own_examples();
     }
 
-    /// What patches take of C.
+    /// The part of C that patches take [Pa].
     Number
     lambda_of_patches() const
     {
@@ -149,7 +149,7 @@ namespace Exemplar
       return Number(1.) / trace(compliance(sum, I)) - Number(2. / 3.) * sum.mu;
     }
 
-    /// Lame's constants of what the guards know.
+    /// Lame's constants in the guards.
     Isotropic<Number>
     isotropic_part() const
     {
@@ -159,7 +159,7 @@ namespace Exemplar
       return { Number(C.lambda), Number(C.mu) };
     }
 
-    /// Of the cells' own energy.
+    /// Constants of the cells' own energy, less the part that patches take.
     template <typename Constants>
     Constants
     of_law(const CellLaw law) const
@@ -183,7 +183,7 @@ namespace Exemplar
           });
     }
 
-    /// D of the sum of the examples' strains, times their weights.
+    /// D, Eq. (31), from the blend sum w_i E_i of the examples' strains.
     Matrix3<Number>
     target(const Matrix3<Number> &wish) const
     {
@@ -191,8 +191,8 @@ namespace Exemplar
       return of.of_examples.is_own() ? compliance(sum, stress(examples, E)) : E;
     }
 
-    /// D:C_y:D of such a target where examples have an elasticity of their own, less what patches have of
-    /// it, and lambda of that; C_y of Eq. (38).
+    /// D:C_y:D of a target D, less the part that patches take, and lambda of that part; C_y of Eq.
+    /// (38), for examples with an elasticity of their own.
     struct Excess
     {
       Number energy, lambda_of_patches;
@@ -232,7 +232,7 @@ namespace Exemplar
       return times((Number(1.) - eta) / eta, stress(sum, E));
     }
 
-    /// The part that examples act on, Eq. (31).
+    /// The part of a strain that examples act on, Eq. (31).
     Matrix3<Number>
     acting(const Matrix3<Number> &E) const
     {
@@ -251,7 +251,7 @@ namespace Exemplar
       }
     }
 
-    /// Of trace 1.
+    /// Strain under hydrostatic stress, scaled to trace 1.
     Matrix3<Number>
     strain_of_pressure() const
     {

@@ -5,12 +5,13 @@
 #include <exemplar/kernels/symmetric.h>
 #include <exemplar/run/adjoint/point_shape.h>
 
-// Which derivatives the numbers carry with which the potential of a point is evaluated.
+// Numbers with derivatives for evaluating the potential of a point: which variables they have, and
+// where.
 
 namespace Exemplar
 {
-  /// Of which the potential of a point has derivatives: E, nu, eta, the six entries of the wish, and those of
-  /// the shape, six of S or nine of F.
+  /// Variables of a point's potential, with the places of their derivatives: E, nu, eta, the six
+  /// entries of the wish (the blended strain), and the shape, six entries of S or nine of F.
   namespace OfPoint
   {
     constexpr std::size_t E = 0, nu = 1, eta = 2, n_constants = 3;
@@ -18,7 +19,7 @@ namespace Exemplar
 
     using Constants = std::array<double, n_constants>;
 
-    /// With the change along the direction and derivatives by the constants.
+    /// Number with a change along the direction and derivatives by the constants.
     using Regular = Dual<1 + n_constants>;
 
     inline void
@@ -36,7 +37,7 @@ namespace Exemplar
         number.by[k] = 1.;
     }
 
-    /// The number with derivative number k.
+    /// The number whose derivative k is 1.
     template <typename Number>
     Number
     seeded(const double value, const double change, const std::size_t k)
@@ -70,7 +71,7 @@ namespace Exemplar
       return result;
     }
 
-    /// A matrix of what `part` finds in each number.
+    /// The matrix of part(number) of each entry.
     template <typename Result, typename Number, typename Part>
     Matrix3<Result>
     parts_of(const Matrix3<Number> &A, const Part &part)
@@ -82,7 +83,7 @@ namespace Exemplar
       return result;
     }
 
-    /// The numbers with their changes alone.
+    /// The numbers with their changes along the direction alone.
     inline Matrix3<HyperDual<0>>
     changing(const Matrix3<Regular> &A)
     {
@@ -90,7 +91,8 @@ namespace Exemplar
                                     { return HyperDual<0>(number.value, number.by[0]); });
     }
 
-    /// The matrix of which the product with a symmetric one has these derivatives by its entries.
+    /// The symmetric matrix whose contraction with dA is the change of the number by dA, from
+    /// entries `first`.
     template <std::size_t n_by>
     Matrix3<HyperDual<0>>
     by_symmetric(const HyperDual<n_by> &number, const std::size_t first)
@@ -104,7 +106,7 @@ namespace Exemplar
       return unpack(entries);
     }
 
-    /// R^T P of a potential.
+    /// R^T P of a potential, P = dPsi/dF.
     inline Matrix3<HyperDual<0>>
     by_shape(const HyperDual<n_with_S> &potential, const PointShape &at)
     {

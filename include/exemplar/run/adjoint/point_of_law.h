@@ -8,30 +8,30 @@
 
 #include <deal.II/base/array_view.h>
 
-// Where the potential of a point is taken, and what its energies have in common.
+// The variables of a point's potential, and the base of its energies.
 
 namespace Exemplar
 {
-  /// What is the same at all points.
+  /// Settings that all points share.
   struct PointScene
   {
     ExampleConstants examples;
-    double           blended_part; ///< of the blended energy
-    /// What patches take of the volume part of the elasticity and of the guard (24): all, or nothing, 0.
+    double           blended_part; ///< share of the blended energy
+    /// 1 if patches take the volume part of the elasticity and the guard (24), else 0.
     double part_of_patches;
   };
 
-  /// Where the potential of a point is taken.
+  /// The variables at a point.
   template <typename Number>
   struct PointPlace
   {
-    Matrix3<Number>           shape; ///< as its law sees F: PointShape
-    Matrix3<Number>           wish;  ///< the strain that it is drawn to, before a part of it acts
+    Matrix3<Number>           shape; ///< S or F, as the law needs it: see PointShape
+    Matrix3<Number>           wish;  ///< the blend of the examples' strains, before Eq. (31)
     MaterialFunctions<Number> material;
     Number                    importance; ///< eta of all cells
   };
 
-  /// The derivatives of a patch's potential by its sums, and how they change.
+  /// The derivatives of a patch's potential by its sums, with their changes along the direction.
   using PatchFactors = PatchSums<HyperDual<0>>;
 
   /// The derivatives of a potential by the shape, as R^T P, and by the wish or the target.
@@ -55,7 +55,7 @@ namespace Exemplar
     Matrix3<Number> by_shape, by_wish;
   };
 
-  /// Those of the patches that a point belongs to: one, or none.
+  /// The factors of the point's patch; empty without patches.
   using FactorsAtPoint = dealii::ArrayView<const PatchFactors>;
 
   template <typename Number>
@@ -65,7 +65,7 @@ namespace Exemplar
     return Number(number.value, number.change);
   }
 
-  /// A cell with its law, and what its patch sums up of it.
+  /// A cell with its law, and its integrands in the sums of its patch.
   template <typename Cell, typename Number>
   class PointOfLaw
   {
@@ -79,7 +79,7 @@ namespace Exemplar
     }
 
   protected:
-    /// The derivative by p_0 of Eq. (16) of an energy with this target.
+    /// The derivative by p_0 of Eq. (16) of an energy with the target D.
     Number
     energy_by_guard_bound(const Matrix3<Number> &D) const
     {
@@ -93,7 +93,7 @@ namespace Exemplar
       return Number(0.);
     }
 
-    /// With this trace of what the point is drawn to.
+    /// The sums of the dilatation, where `wish` is the trace of the target.
     PatchSums<Number>
     dilatation(const Number &wish) const
     {
@@ -121,7 +121,7 @@ namespace Exemplar
       return StretchGuard<Number>::may_act(cell.stretch_factor(), cell.product_of_sums());
     }
 
-    /// Whether no guard acts, and forces are those of the law.
+    /// Whether no guard acts, so that the law gives the forces.
     bool
     is_regular() const
     {
@@ -130,7 +130,7 @@ namespace Exemplar
       return true;
     }
 
-    /// Of the energy with this target.
+    /// The derivatives of the law's energy with the target D.
     PointStress<Number>
     stress_towards(const Matrix3<Number> &D)
     {
@@ -138,7 +138,7 @@ namespace Exemplar
       return { cell.force(), times(Number(-1.), cell.weight_stress(D)) };
     }
 
-    /// Of the traces in a patch with these factors, by the shape and the target.
+    /// The derivatives of the terms in traces of a patch with these factors.
     PointStress<Number>
     stress_of_traces(const PatchFactors &factors) const
     {

@@ -6,11 +6,12 @@
 
 #include <optional>
 
-// The potential of a point as one function of all that it depends on, for numbers that carry derivatives.
+// The potential of a point as one function of all its variables, for numbers that carry
+// derivatives.
 
 namespace Exemplar
 {
-  /// The elastic energy, with examples.
+  /// The elastic energy density, with examples.
   template <typename Cell, typename Number>
   class ElasticPoint : public PointOfLaw<Cell, Number>
   {
@@ -37,8 +38,8 @@ namespace Exemplar
       return this->energy_by_guard_bound(D);
     }
 
-    /// The derivatives of `share` times the energy with what patches make of it, by the law's own force;
-    /// nothing where more than that acts.
+    /// The derivatives of `share` times the energy, patch terms included, by the law's own force;
+    /// nothing if a guard acts or the target is not eta times the wish.
     std::optional<PointStress<Number>>
     regular_stress(const double share, const FactorsAtPoint &of_patches)
     {
@@ -93,14 +94,15 @@ namespace Exemplar
       return Number(1. - scene.part_of_patches);
     }
 
-    /// A law that knows eta has it as a number without derivatives. What is missing is 0 with them.
+    /// eta less its value: laws hold eta as a constant, and this term of value 0 adds the
+    /// derivatives by it.
     Number
     change_of_importance() const
     {
       return at.importance - Number(scene.examples.importance);
     }
 
-    /// The derivative by S of what grows with it.
+    /// The derivative by S of the part of the energy that is proportional to eta.
     Matrix3<Number>
     of_examples_alone() const
     {
@@ -118,13 +120,13 @@ namespace Exemplar
         const Number of_strain
             = Number(0.5) * contract(stress(cell.own_material(), cell.strain()), cell.strain());
         sum += change * (of_strain - cell.elastic_density());
-        if (cell.is_stretched()) // whose energy is proportional to eta
+        if (cell.is_stretched()) // Eq. (24), proportional to eta
           sum += of_cells() * change / at.importance * cell.stretch().energy();
       }
       return sum;
     }
 
-    /// Eq. (24).
+    /// Energy of the guard of Eq. (24); 0 if patches take it.
     Number
     of_guard() const
     {
@@ -134,7 +136,7 @@ namespace Exemplar
       return Number(0.);
     }
 
-    /// What the weights' form has beyond the Gram matrix of the targets.
+    /// The weights' quadratic form beyond the Gram matrix of the targets.
     Number
     form_of_weights() const
     {
@@ -159,7 +161,8 @@ namespace Exemplar
     const Matrix3<Number> D;
   };
 
-  /// The energy of stiffness damping, Eq. (22), with s = 1. The wish is the strain that is compared.
+  /// The energy of stiffness damping, Eq. (22), with s = 1. The wish is the weighted sum of earlier
+  /// strains.
   template <typename Cell, typename Number>
   class DampingPoint : public PointOfLaw<Cell, Number>
   {
@@ -182,11 +185,11 @@ namespace Exemplar
       return this->energy_by_guard_bound(at.wish);
     }
 
-    /// As of ElasticPoint.
+    /// See ElasticPoint.
     std::optional<PointStress<Number>>
     regular_stress(const double share, const FactorsAtPoint &of_patches)
     {
-      if constexpr (Cell::traits.knows_volume) // whose force has more than damping
+      if constexpr (Cell::traits.knows_volume) // their force is not of damping alone
         return {};
       const bool was_thin
           = Cell::traits.has_guard_of_patches() && ThinTrace<Number>::of_strain(at.wish).acts();
@@ -206,7 +209,7 @@ namespace Exemplar
     }
   };
 
-  /// Over the volume, with what its patches make of it.
+  /// Energy density at a point, patch terms included.
   template <typename Number>
   struct PointPotential
   {
@@ -214,7 +217,7 @@ namespace Exemplar
     Number by_guard_bound; ///< derivative by p_0 of Eq. (16)
   };
 
-  /// Of one of the evaluations above, `share` times.
+  /// Evaluate ElasticPoint or DampingPoint for a law, times `share`.
   template <template <typename, typename> class Evaluation, typename Number>
   PointPotential<Number>
   point_potential(const CellLaw             law,
@@ -242,8 +245,8 @@ namespace Exemplar
     return found;
   }
 
-  /// The derivatives of the same where these are the law's forces, and what the changes of the patches'
-  /// factors make of their sums.
+  /// The derivatives of the potential at a point where the law gives the forces, and the patch
+  /// terms due to changes of the patches' factors.
   template <typename Number>
   struct RegularPoint
   {
@@ -251,7 +254,7 @@ namespace Exemplar
     Number              of_patches;
   };
 
-  /// Nothing where more than forces acts.
+  /// RegularPoint of ElasticPoint or DampingPoint; nothing where regular_stress() is not known.
   template <template <typename, typename> class Evaluation, typename Number>
   std::optional<RegularPoint<Number>>
   regular_point(const CellLaw             law,
@@ -282,7 +285,7 @@ namespace Exemplar
     return found;
   }
 
-  /// What the patch of the point sums up.
+  /// The point's integrands in the sums of its patch.
   template <template <typename, typename> class Evaluation, typename Number>
   PatchSums<Number>
   patch_sums(const CellLaw law, const PointScene &scene, const PointPlace<Number> &at)

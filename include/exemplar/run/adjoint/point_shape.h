@@ -4,7 +4,8 @@
 
 #include <exemplar/run/adjoint/laws_with_derivatives.h>
 
-// The deformation gradient F = R S of a point as its law sees it, in the frame of its rotation, and the way back.
+// The deformation gradient F = R S in the form that a law needs, in the frame of its rotation, and
+// derivatives transformed back.
 
 namespace Exemplar
 {
@@ -21,17 +22,17 @@ namespace Exemplar
     return combine(Number(1.), T, factor, skew_matrix(turn));
   }
 
-  /// Derivatives by F, and by its change along a direction.
+  /// Derivatives by F, and by its change dF along a direction.
   struct ShapeDerivatives
   {
     Matrix3<double> by_F, by_dF;
   };
 
-  /// Where a law has rotations its energy depends on S alone.
+  /// S of F = R S for laws with rotations, whose energy depends on S alone; else F itself.
   class PointShape
   {
   public:
-    /// Of this F, which changes by dF.
+    /// Takes F and its change dF along a direction.
     PointShape(const bool has_rotations, const Matrix3<double> &F, const Matrix3<double> &dF)
         : has_rotations(has_rotations), R(identity_matrix<double>()), turn{}, value(F), change(dF)
     {
@@ -52,7 +53,7 @@ namespace Exemplar
       change = symmetric_part(combine(1., M, -1., turn * value));
     }
 
-    /// S, or F.
+    /// The matrix S, or F.
     const Matrix3<double> &
     get_value() const
     {
@@ -65,14 +66,14 @@ namespace Exemplar
       return change;
     }
 
-    /// Whether it is S, which is symmetric.
+    /// Whether the value is S, which is symmetric.
     bool
     is_turned() const
     {
       return has_rotations;
     }
 
-    /// Of a potential with this R^T P.
+    /// Derivatives by F and dF of a potential with this R^T P.
     ShapeDerivatives
     derivatives(const Matrix3<HyperDual<0>> &of) const
     {
@@ -90,7 +91,7 @@ namespace Exemplar
 
   private:
     bool            has_rotations;
-    Matrix3<double> R, turn; ///< and R^T dR
+    Matrix3<double> R, turn; ///< R and R^T dR
     Matrix3<double> value, change;
   };
 } // namespace Exemplar

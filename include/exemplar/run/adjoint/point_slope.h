@@ -5,17 +5,17 @@
 #include <exemplar/run/adjoint/point_numbers.h>
 #include <exemplar/run/adjoint/point_potential.h>
 
-// What a point adds to the slope.
+// The contribution of a point to the slope.
 
 namespace Exemplar
 {
-  /// What a point's strain is drawn to, and how that changes along the direction.
+  /// The strain in a point's target, and its change along the direction.
   struct Wish
   {
     Matrix3<double> value, change;
   };
 
-  /// The derivatives of a slope by a wish are the changes of those of the potential.
+  /// The derivatives of a slope by a wish are the changes of the potential's derivatives.
   inline Wish
   slope_by_wish(const Matrix3<HyperDual<0>> &by_wish)
   {
@@ -24,16 +24,16 @@ namespace Exemplar
              OfPoint::parts_of<double>(by_wish, [](const Number &x) { return x.value; }) };
   }
 
-  /// What a point adds to the slope, over its volume, and the derivatives of that.
+  /// The contribution of a point to the slope, per volume, and its derivatives.
   struct PointSlope
   {
     double                    slope;
     PointStress<HyperDual<0>> stress;
     OfPoint::Constants        by_constants;
-    double                    by_guard_bound; ///< p_0 of Eq. (16)
+    double                    by_guard_bound; ///< derivative by p_0 of Eq. (16)
   };
 
-  /// By the law's forces.
+  /// Slope of a point where the law gives the forces.
   inline PointSlope
   slope_of_stress(const PointShape                     &shape,
                   const Wish                           &wish,

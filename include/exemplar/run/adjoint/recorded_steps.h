@@ -18,19 +18,19 @@ namespace Exemplar
     std::vector<double> weights;
   };
 
-  /// The states of a problem from one of them on, for gradients through its steps.
+  /// The states of a problem from a first one on, for gradients through its steps.
   class RecordedSteps
   {
   public:
-    /// Begins where the problem stands. Throws UserError, by name, for scenes through whose steps no
-    /// gradients are known.
+    /// Begins at the problem's state. Throws UserError, by name, for scenes through whose steps
+    /// gradients are not known.
     explicit RecordedSteps(const Problem &problem);
 
-    /// For Problem::on_step, of the same problem.
+    /// Callback for Problem::on_step, of the same problem.
     void
     add(const Problem &problem, const State &start, double size);
 
-    /// Throws UserError, by name, where the steps are not all of one problem, which this still is.
+    /// Throws UserError, by name, if the steps are not all of one problem, or it was changed since.
     void
     require_one_problem(const Problem &problem) const;
 
@@ -46,12 +46,12 @@ namespace Exemplar
       return steps[i];
     }
 
-    /// The state from which step i was made; that from which none was for i = size().
+    /// The state before step i; for i = size(), the last state.
     State
     start(unsigned int i) const;
 
   private:
-    /// Where step i begins.
+    /// Positions at the beginning of step i.
     const Vector &
     positions_before(const unsigned int i) const
     {
@@ -59,10 +59,10 @@ namespace Exemplar
     }
 
     const State              initial;
-    const bool               has_two_steps; ///< the time scheme, which looks at two states
-    const unsigned int       n_changes;     ///< of the problem, before
-    std::deque<RecordedStep> steps;         ///< which stay where they are in memory
-    std::string              broken;        ///< why they are no path; empty: they are
+    const bool               has_two_steps; ///< BDF2, which needs two states before a step
+    const unsigned int       n_changes;     ///< number of the problem's changes before the steps
+    std::deque<RecordedStep> steps;         ///< a deque, so that addresses stay valid
+    std::string              broken;        ///< why they are no trajectory; empty if they are
   };
 } // namespace Exemplar
 

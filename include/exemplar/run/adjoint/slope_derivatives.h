@@ -17,16 +17,16 @@ namespace Exemplar
     std::vector<double> weights;
   };
 
-  /// Of the slope of the potential along a direction (a, b), a.dPhi/dx + b.dPhi/dw, the derivatives by all that
-  /// the potential depends on, at fixed a and b. Those by the state are Phi'' (a, b).
+  /// Derivatives of the slope of the potential along a direction (a, b), a.dPhi/dx + b.dPhi/dw, by
+  /// all data of the potential, at fixed a and b. The derivatives by the state are Phi'' (a, b).
   struct SlopeDerivatives
   {
-    Vector              by_positions; ///< by degree of freedom, held ones too
+    Vector              by_positions; ///< by degree of freedom, held ones included
     std::vector<double> by_weights;
     Vector              by_rest_positions;
     std::vector<Vector> by_poses; ///< of all examples
-    /// By the strains of examples, by point and of all of them: what by_poses and by_rest_positions lack until
-    /// carry_strains_to_poses(); empty thereafter.
+    /// Derivatives by the examples' strains, by point and example, that by_poses and
+    /// by_rest_positions lack until carry_strains_to_poses(), which empties it.
     std::vector<SymmetricEntries<double>> by_strains;
     std::vector<double>                   by_young, by_poisson, by_density; ///< by cell
     double                                by_importance = 0.;
@@ -36,7 +36,8 @@ namespace Exemplar
 
   class ExampleStrains;
 
-  /// Of a static problem that adjoint_checks.h knows, whose examples have these strains.
+  /// Derivatives for a static problem that satisfies adjoint_checks.h, whose examples have these
+  /// strains.
   SlopeDerivatives
   derivatives_of_slope(const Problem        &problem,
                        const ExampleStrains &strains,

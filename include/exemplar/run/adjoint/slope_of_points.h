@@ -6,19 +6,21 @@
 #include <exemplar/run/adjoint/point_slope.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
-// The derivatives of the slope of a potential that is a sum over points and patches: that of each is evaluated
-// with numbers that carry its change along the direction, and the derivatives of both by all that it depends on.
+// The derivatives of the slope of a potential that is a sum over points and patches. Each term is
+// evaluated with numbers that carry its change along the direction and the derivatives of value and
+// change.
 
 namespace Exemplar
 {
-  /// `Part` says which potential: Part::Evaluation of point_potential.h, factors share(point) and
-  /// share_of_patch(patch) of it, wish(point), patch_scene(law), and square_of_bound(patch, point) for the
-  /// guard (26). By add_wish() and add_guard_bound() it hears of the derivatives by what is its own.
+  /// `Part` specifies the potential: Part::Evaluation of point_potential.h, its factors
+  /// share(point) and share_of_patch(patch), wish(point), patch_scene(law), and
+  /// square_of_bound(patch, point) for the guard (26). add_wish() and add_guard_bound() pass on
+  /// derivatives by the wish and by p_0.
   template <typename Part>
   class SlopeOfPoints
   {
   public:
-    /// All must outlive it.
+    /// All arguments must outlive it.
     SlopeOfPoints(const Problem &problem, const Vector &along, Part &part)
         : problem(problem), along(along), fe_space(problem.body.fe_space),
           patches(problem.body.patches),
@@ -43,7 +45,7 @@ namespace Exemplar
       }
     }
 
-    /// The slope itself.
+    /// The slope itself, by direct evaluation.
     double
     slope() const
     {
@@ -55,7 +57,7 @@ namespace Exemplar
       return sum;
     }
 
-    /// Add its derivatives.
+    /// Add the slope's derivatives to `sums`.
     void
     add_to(SlopeDerivatives &sums)
     {
@@ -79,7 +81,8 @@ namespace Exemplar
 
     using OfPatch = HyperDual<PatchFactors::size + 1>; // and by eta
 
-    /// Find something at all points, some at a time by all threads, and take it in the points' order.
+    /// Evaluate find(point) at all points in parallel, some at a time, and take the results in the
+    /// points' order.
     template <typename Found, typename Find, typename Take>
     void
     for_each_found(const Find &find, const Take &take) const
@@ -101,7 +104,7 @@ namespace Exemplar
       }
     }
 
-    /// Without patches.
+    /// Slope of a point's energy without its patch.
     double
     slope_of_energy(const unsigned int point) const
     {
@@ -123,7 +126,7 @@ namespace Exemplar
       return { &factors[patches.of_point(point)], 1 };
     }
 
-    /// All that the potential of a point depends on.
+    /// The variables of a point's potential.
     struct Point
     {
       CellLaw         law;
@@ -148,7 +151,7 @@ namespace Exemplar
                              problem.parameters.examples.acts_on, scene.part_of_patches, cell) };
     }
 
-    /// As numbers with derivatives: function(place).
+    /// function(place) with the variables as numbers with derivatives.
     template <typename Number, typename Function>
     auto
     with_place(const Point &point, const Function &function) const
@@ -183,7 +186,7 @@ namespace Exemplar
       return slope_of_potential<OfPoint::n_with_F>(point, share, of_patches);
     }
 
-    /// Where more than these acts, by derivatives of the potential.
+    /// Slope where the law does not give the forces, by derivatives of the potential.
     template <std::size_t n_by>
     PointSlope
     slope_of_potential(const Point          &point,
@@ -240,7 +243,7 @@ namespace Exemplar
              * patch_potential(part.patch_scene(scene, law), seeded_sums, eta);
     }
 
-    /// What the slope has of a point, to be added to that of its nodes and its cell.
+    /// A point's part of the slope and its derivatives, to be added at its nodes and its cell.
     struct Contribution
     {
       Matrix3<double>    by_F, by_gradients;
@@ -269,7 +272,7 @@ namespace Exemplar
       return result;
     }
 
-    /// The change of what the bound of the patch's guard adds, which depends on the volume alone.
+    /// The point's part of the change of the bound of its patch's guard, through its volume.
     double
     of_guard_bound(const unsigned int point, const FactorsAtPoint &of_patches) const
     {
@@ -302,8 +305,8 @@ namespace Exemplar
     const LawsOfCells        &laws;
     const PointScene          scene;
     Part                     &part;
-    std::vector<OfPatch>      of_patches; ///< the potential of each
-    std::vector<PatchFactors> factors;    ///< its derivatives
+    std::vector<OfPatch>      of_patches; ///< potential of each patch
+    std::vector<PatchFactors> factors;    ///< derivatives of the potentials by the sums
   };
 } // namespace Exemplar
 

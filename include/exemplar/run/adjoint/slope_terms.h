@@ -4,32 +4,35 @@
 
 #include <exemplar/run/adjoint/slope_derivatives.h>
 
-// The slope of what is not elastic, and what all terms need.
+// The slope of terms that are not elastic, and helpers for all terms.
 
 namespace Exemplar
 {
-  /// Add the derivatives by the nodes of a cell of what has the derivative `by_F` by sum x_a g_a^T.
+  /// Add a function's derivatives by the nodes' positions x_a, given its derivative `by_F` by F =
+  /// sum x_a g_a^T.
   void
   add_forces(const FESpace &fe_space, unsigned int point, const Matrix3<double> &by_F, Vector &to);
 
-  /// The same by the vertices of a cell, for sum X_v grad L_v^T with the linear functions L_v that are 1 at one
-  /// vertex: what moves the other nodes with them.
+  /// Add a function's derivatives by the vertices' rest positions X_v, given `by_gradient` by sum
+  /// X_v grad L_v^T with the barycentric coordinates L_v of a cell; its other nodes move with the
+  /// vertices.
   void
   add_at_vertices(const FESpace         &fe_space,
                   unsigned int           cell,
                   const Matrix3<double> &by_gradient,
                   Vector                &to);
 
-  /// The same of what depends on the rest positions by the volume of a cell alone; the derivative is given
-  /// times the volume.
+  /// Add derivatives by the vertices' rest positions of a function of a cell's volume V;
+  /// `by_volume` is V times its derivative.
   void
   add_volume(const FESpace &fe_space, unsigned int cell, double by_volume, Vector &to);
 
-  /// Of the ridge sigma/2 sum w_i^2 on weights that are to be found, and of what moving them costs, Eq. (27).
+  /// Slope of the ridge sigma/2 sum w_i^2 on unknown weights and of the cost of moving them, Eq.
+  /// (27).
   void
   add_slope_of_ridge(const Problem &problem, const Direction &direction, SlopeDerivatives &sums);
 
-  /// Of gravity and nodal forces.
+  /// Slope of gravity and nodal forces.
   void
   add_slope_of_loads(const Problem &problem, const Direction &direction, SlopeDerivatives &sums);
 } // namespace Exemplar

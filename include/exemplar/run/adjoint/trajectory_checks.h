@@ -4,20 +4,20 @@
 
 #include <exemplar/run/problem/problem.h>
 
-// What trajectory_gradients() relies on.
+// Preconditions of trajectory_gradients().
 
 namespace Exemplar
 {
-  /// Throws UserError, by name, for what the scene has and gradients through steps do not know.
+  /// Throws UserError, by name, for scenes that gradients through steps do not know.
   void
   require_known_steps(const Problem &problem);
 
-  /// The residual to which steps are solved.
+  /// The residual tolerance of the steps.
   double
   required_residual(const SolverParameters &solver);
 
-  /// Throws UserError for a state that is not where a step, counted from 0, ends that was solved as the
-  /// scene says. Steps of quasi-Newton's method are solved to Solver/Step tolerance.
+  /// Throws UserError if the state does not solve the equations of `step`, counted from 0, to the
+  /// scene's tolerance, which for quasi-Newton steps is Solver/Step tolerance.
   void
   require_solved_step(const Problem &problem, const Evaluation &evaluation, unsigned int step);
 } // namespace Exemplar

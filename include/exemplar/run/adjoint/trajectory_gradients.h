@@ -19,25 +19,26 @@ namespace Exemplar
     dealii::ArrayView<const double> positions, weights, velocities;
   };
 
-  /// The gradient of a function J of the states at the ends of steps, by what all steps depend on;
-  /// doc/gradients.md.
+  /// The gradient of a function J of the states at the ends of steps, by the data that all steps
+  /// share; doc/gradients.md.
   struct TrajectoryGradients
   {
-    /// By what holds for all steps; handles by a displacement that is the same in all. No list of weak
-    /// weights.
+    /// Gradients by data constant in time; handles by a displacement that is constant in time. Its
+    /// weakly_active is empty.
     Gradients all;
-    /// By the positions of held nodes at the end of each step, three numbers a node, in that order.
+    /// Gradients by the positions of held nodes at the end of each step, three components a node,
+    /// in the order of held_nodes.
     std::vector<std::vector<double>> handles;
     std::vector<unsigned int>        held_nodes;
-    std::optional<double> mass_damping, stiffness_damping; ///< in dynamic scenes, as what follows
+    std::optional<double> mass_damping, stiffness_damping; ///< in dynamic scenes, like the next two
     std::optional<Vector> initial_positions, initial_velocities;
-    /// As Gradients::weakly_active, with the step counted from 0.
+    /// Pairs of a step, counted from 0, and a weight as in Gradients::weakly_active.
     std::vector<std::pair<unsigned int, unsigned int>> weakly_active;
   };
 
-  /// Of J that has these derivatives, as many as there are steps, one tangent factorised a step. Throws
-  /// UserError for steps that it does not know and for those that were not solved, and SolverFailure if
-  /// an exact tangent is not positive definite. The problem stays as it is.
+  /// Gradients of a J with these derivatives, one entry a step; one tangent is factorised a step.
+  /// Throws UserError for steps whose gradients are not known or that were not solved, and
+  /// SolverFailure if an exact tangent is not positive definite. The problem stays as it is.
   TrajectoryGradients
   trajectory_gradients(Problem                             &problem,
                        const RecordedSteps                 &steps,

@@ -17,15 +17,15 @@ namespace Exemplar
   class Mesh;
   struct SurfaceMesh;
 
-  /// How an animation is played.
+  /// Playback of an animation.
   struct Playback
   {
-    double interval          = 1.; ///< of time from frame to frame [s]; of t, where that is no time
+    double interval          = 1.; ///< between frames [s]; of t unless dynamic
     double frames_per_second = 24.;
-    bool   z_is_up           = false; ///< else y
+    bool   z_is_up           = false; ///< else y is
   };
 
-  /// What frames show; it outlives their writers.
+  /// The objects that frames show; they outlive the writers.
   struct FrameSubject
   {
     const Mesh        &mesh;
@@ -35,32 +35,31 @@ namespace Exemplar
     std::string        carried  = {}; ///< name of the surface, if it is one of Mesh/Carry
   };
 
-  /// A format that frames can be written in: its files and who writes them.
+  /// A file format of frames.
   struct FrameFormat
   {
     using MakeWriter = std::function<std::unique_ptr<const FrameWriter>(const FrameSubject &)>;
 
-    /// Writes the file that joins the pieces of a frame, which have these names.
+    /// Writes the file that joins the pieces of a frame; `pieces` are their file names.
     using JoinPieces = std::function<void(const Frame                    &frame,
                                           const std::vector<std::string> &pieces,
                                           const std::filesystem::path    &file)>;
 
-    std::string name;      ///< in Output/Formats, and what the names of frames end in
-    std::string animation; ///< name of the file that shows all frames; empty: there is none
+    std::string name;      ///< in Output/Formats, and extension of frame files
+    std::string animation; ///< file name of the animation; empty: none
     MakeWriter  make_writer;
 
-    /// What every frame and every animation begin with; empty: not known.
+    /// Beginnings of every frame file and every animation; empty: not known.
     std::string frame_beginning = {}, animation_beginning = {};
 
     bool shows_surface = false; ///< whether the writer needs the surface of the body
 
-    /// Of a body that several processes share each writes a piece of the frame, and a file joins them:
-    /// who writes that, what its name ends in, and what it begins with; null and empty: frames have
-    /// no pieces.
+    /// If processes share a body, each writes a piece of the frame, and a file joins them: its
+    /// writer, extension and beginning; null and empty for formats without pieces.
     JoinPieces  join         = {};
     std::string joint_ending = {}, joint_beginning = {};
 
-    /// Who writes a surface of Mesh/Carry; null: make_writer.
+    /// Makes writers of surfaces of Mesh/Carry; null: make_writer.
     MakeWriter make_carried_writer = {};
 
     bool
@@ -69,40 +68,40 @@ namespace Exemplar
       return join != nullptr;
     }
 
-    /// The writer of the body's frames, or those of a surface that it carries.
+    /// The writer for the body's frames, or for those of a surface that it carries.
     std::unique_ptr<const FrameWriter>
     writer_of(const FrameSubject &subject) const;
 
-    /// The name of a step's frame, without the directory, of the body or of the surface of Mesh/Carry
-    /// that has this name.
+    /// The file name of a step's frame, without directory, of the body or of the named surface of
+    /// Mesh/Carry.
     std::string
     frame_name(unsigned int step, const std::string &carried = "") const;
 
-    /// The name of the file that shows all frames, likewise.
+    /// The file name of the animation, of the body or of a carried surface.
     std::string
     animation_name(const std::string &carried = "") const;
 
-    /// The names of what so many processes write of a frame: that of the frame, or of a piece each.
-    /// What a body carries has no pieces.
+    /// The file names of a step: the frame's for one process, else a piece's for each. Carried
+    /// surfaces have no pieces.
     std::vector<std::string>
     names_of_pieces(unsigned int       step,
                     unsigned int       n_processes,
                     const std::string &carried = "") const;
 
-    /// The name of the file that joins these.
+    /// The name of the file that joins the pieces of a step's frame.
     std::string
     joint_name(unsigned int step) const;
 
-    /// The step of the frame, or of the piece of one, of this name; nothing if no run writes such a frame.
+    /// The step of a frame or piece of this file name; nothing for other names.
     std::optional<unsigned int>
     step_of(const std::string &file) const;
 
-    /// Whether a file of this name shows all frames, of the body or of what it carries.
+    /// Whether this is the file name of an animation, of the body or of a carried surface.
     bool
     is_animation(const std::string &file) const;
 
-    /// What a file of this name (without the directory) begins with if a run has written it;
-    /// nothing if no run writes files of this name.
+    /// The beginning of a run's file of this name (without directory); nothing if runs write no
+    /// such files.
     std::optional<std::string>
     beginning_of(const std::string &file) const;
   };
@@ -111,7 +110,7 @@ namespace Exemplar
   const std::vector<FrameFormat> &
   frame_formats();
 
-  /// Of formats, as Output/Formats has them.
+  /// Names of formats, as in Output/Formats.
   std::vector<std::string>
   names_of(const std::vector<FrameFormat> &formats);
 } // namespace Exemplar

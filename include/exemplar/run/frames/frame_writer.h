@@ -13,7 +13,7 @@
 
 namespace Exemplar
 {
-  /// What a frame shows. It holds copies, so it can be written while the problem goes on. Vectors
+  /// The data of a frame. It holds copies, so that it can be written during the next step. Vectors
   /// have three values a node, in the order of FESpace: that of the mesh file, then nodes on edges.
   /// Cells are in the order of the mesh file.
   struct Frame
@@ -24,8 +24,8 @@ namespace Exemplar
     Vector       displacement; ///< from the rest pose [m]
     Vector       velocities;   ///< [m/s]; empty unless dynamic
     CellResults  cells;
-    /// Places of the vertices of the body's surface in the unit of its file; empty unless a format
-    /// shows it.
+    /// Positions of the vertices of the body's surface in the unit of its file; empty unless a
+    /// format shows it.
     std::vector<SurfaceMesh::Vertex> surface     = {};
     std::optional<SpaceError>        space_error = {};
     std::vector<NodalField>          fields      = {}; ///< of the potential's terms
@@ -44,13 +44,13 @@ namespace Exemplar
   public:
     virtual ~FrameWriter() = default;
 
-    /// Write a frame to a file of its own that appears whole or not at all. Another thread may
-    /// call this, but never while one of these functions runs. May throw any std::exception.
+    /// Write a frame to a file atomically. May be called from another thread, but no two calls
+    /// overlap. May throw any std::exception.
     virtual void
     write(const Frame &frame, const std::filesystem::path &file) const = 0;
 
-    /// Write the file that shows all frames of a run, which come in order of time. Only called
-    /// for formats that have such a file.
+    /// Write the animation of a run's frames, which are in order of time. Only called for formats
+    /// with animations.
     virtual void
     write_animation(const std::vector<WrittenFrame> &frames,
                     const std::filesystem::path     &file) const = 0;

@@ -10,7 +10,7 @@
 
 namespace Exemplar
 {
-  /// Which byte of a number comes first in a file.
+  /// Order of the bytes of a number in a file.
   enum class ByteOrder
   {
     little,

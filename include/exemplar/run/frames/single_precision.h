@@ -9,8 +9,8 @@
 
 namespace Exemplar
 {
-  /// A coordinate as formats of graphics have it. Throws SolverFailure for one that is no number
-  /// there.
+  /// A coordinate in the single precision of graphics formats. Throws SolverFailure if it
+  /// overflows.
   inline float
   single_precision(const double coordinate)
   {

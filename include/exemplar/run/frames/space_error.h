@@ -8,12 +8,12 @@
 
 namespace Exemplar
 {
-  /// An estimate of how far a state of linear elements is from that of ever finer meshes.
+  /// Estimated error of a state of linear elements due to the mesh.
   struct SpaceError
   {
-    double displacement = 0.; ///< norm of the correction over that of the corrected displacement
-    double energy       = 0.; ///< of the potential, over the corrected energy, doc/choosing.md
-    std::optional<double> weights;        ///< greatest change of a weight; of unknown weights alone
+    double displacement = 0.; ///< norm of the correction, relative to the corrected displacement's
+    double energy = 0.; ///< of the potential, relative to the corrected energy, doc/choosing.md
+    std::optional<double> weights;        ///< greatest change of an unknown weight
     std::vector<double>   energy_density; ///< of the correction's strain, by cell [J/m^3]
 
     /// Why there is no estimate; else empty.

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-// What all files of VTK's XML formats consist of.
+// Common parts of files in VTK's XML formats.
 
 namespace Exemplar
 {
@@ -33,11 +33,11 @@ namespace Exemplar
         << "</DataArray>\n";
   }
 
-  /// What an unstructured grid begins with.
+  /// The beginning of an unstructured grid's file.
   std::string
   head_of_grid();
 
-  /// The list of frames that ParaView opens.
+  /// Write the collection of frames that ParaView opens.
   void
   write_collection(const std::vector<WrittenFrame> &frames, const std::filesystem::path &file);
 } // namespace Exemplar

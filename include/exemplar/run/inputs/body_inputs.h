@@ -15,15 +15,15 @@
 
 namespace Exemplar
 {
-  /// What a scene says of the nodes and cells of its mesh, or of those that a process has of it.
+  /// The scene's data at the nodes and cells of its mesh, or of a process' part of it.
   struct BodyFields
   {
     Material                         material;
-    std::vector<unsigned int>        patches; ///< of each cell, as Patches wants it; empty: none
+    std::vector<unsigned int>        patches; ///< patch of each cell, see Patches; empty: none
     std::vector<std::vector<double>> shares;  ///< of Examples/Weight maps, a value a cell
     NamedPoses                       poses;
-    NamedNodes                       nodes; ///< of all selections, by their text
-    /// Of an interpolation; its nodes are those of the whole body.
+    NamedNodes                       nodes; ///< of all selections, by their texts
+    /// Support of an interpolation; its nodes are those of the whole body.
     std::optional<StaticallyDeterminateSupport> support;
 
     template <typename Archive>
@@ -40,19 +40,19 @@ namespace Exemplar
     }
   };
 
-  /// What is not divided: of a body that several processes share, the root alone has it.
+  /// Inputs that are not distributed: if processes share a body, the root alone has them.
   struct UndividedInputs
   {
     NamedMotions                            motions; ///< of handles that follow a cache
     std::vector<std::string>                warnings;
-    std::shared_ptr<const SurfaceMesh>      surface;   ///< as Inputs have it
-    std::vector<CarriedSurface>             carried;   ///< the same
-    std::shared_ptr<const MadeOfSurfaces>   made;      ///< the same
-    std::optional<std::vector<std::string>> geo_walls; ///< the same
+    std::shared_ptr<const SurfaceMesh>      surface;   ///< see Inputs
+    std::vector<CarriedSurface>             carried;   ///< see Inputs
+    std::shared_ptr<const MadeOfSurfaces>   made;      ///< see Inputs
+    std::optional<std::vector<std::string>> geo_walls; ///< see Inputs
     std::shared_ptr<const Inputs>           inputs; ///< null unless Output/Space error needs them
   };
 
-  /// What the body of a scene is made of: all of it, or the part of a process.
+  /// The body of a scene, or the part of it that a process has.
   struct BodyInputs
   {
     Mesh            mesh;
@@ -60,12 +60,11 @@ namespace Exemplar
     UndividedInputs undivided;
   };
 
-  /// The whole body of a scene, of its inputs. Throws UserError for whatever these and the scene do
-  /// not fit.
+  /// The whole body of a scene from its inputs. Throws UserError if they do not fit the scene.
   BodyInputs
   make_body_inputs(const CompleteScene &scene, Inputs inputs);
 
-  /// The same of what read_inputs() reads.
+  /// The whole body of a scene, from the files that read_inputs() reads.
   BodyInputs
   read_body(const CompleteScene &scene, const Announce &announce = {});
 } // namespace Exemplar

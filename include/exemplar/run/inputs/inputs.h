@@ -21,34 +21,35 @@ namespace Exemplar
     SurfaceMesh surface;
   };
 
-  /// What the files hold that a scene names, or arrays that stand in for them; make_msh() makes
-  /// a mesh of arrays. All lengths are in the mesh's unit: Mesh/Scale makes metres of them.
+  /// Contents of the files that a scene names, or arrays in their place; make_msh() makes a mesh of
+  /// arrays. All lengths are in the mesh's unit, which Mesh/Scale converts to metres.
   struct Inputs
   {
     MshFile    mesh;
     NamedPoses poses; ///< of Examples/Poses, Handles/NAME/Follow pose and Initial/Pose
     NamedNodes nodes; ///< of Select = nodes FILE
-    /// Of Mesh/Surface; null unless the scene needs it.
+    /// The surface Mesh/Surface; null unless the scene needs it.
     std::shared_ptr<const SurfaceMesh> surface = {};
-    /// Of Mesh/Carry, in its order.
+    /// The surfaces of Mesh/Carry, in its order.
     std::vector<CarriedSurface> carried = {};
-    NamedMaps                   maps    = {}; ///< by FILE:ATTRIBUTE, of the surface's vertices
-    /// Of Follow cache, by the names of handles. Sequences of files keep a reference to the surface.
+    NamedMaps                   maps    = {}; ///< on the surface's vertices, by FILE:ATTRIBUTE
+    /// The caches of Follow cache, by handle names. Sequences of files keep a reference to the
+    /// surface.
     std::map<std::string, std::shared_ptr<const PointCache>> caches = {};
-    /// How mesh and poses became of surfaces; null if none did.
+    /// Report on meshes and poses made of surfaces; null if none were.
     std::shared_ptr<const MadeOfSurfaces> made = {};
-    /// What stood around gmsh, see MshFile::geo_walls.
+    /// Walls around gmsh's geometry, see MshFile::geo_walls.
     std::optional<std::vector<std::string>> geo_walls = {};
   };
 
-  /// Read or generate what a scene needs and `given` does not hold. Without importance no
-  /// example pose is read. Throws UserError for a file that cannot be read or is none of the
-  /// mesh, naming what is wrong. Surfaces are checked before anything is made of them, which may take
-  /// long unless it is kept; `announce` is told of it.
+  /// Read or generate the inputs that a scene needs and `given` lacks. Example poses are read only
+  /// if the importance is not 0. Throws UserError, naming the cause, for a file that cannot be read
+  /// or does not belong to the mesh. Surfaces are checked before anything is made of them, which
+  /// takes long unless the result is in the cache; `announce` is told of it.
   Inputs
   read_inputs(const CompleteScene &scene, Inputs given = {}, const Announce &announce = {});
 
-  /// load_mesh(), also of a surface.
+  /// load_mesh(), or a mesh made inside of a surface.
   MshFile
   load_or_make_mesh(const MeshParameters &parameters);
 } // namespace Exemplar

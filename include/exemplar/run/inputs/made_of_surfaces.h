@@ -7,7 +7,7 @@
 
 namespace Exemplar
 {
-  /// What of a scene's inputs was made of surfaces, for the user to judge.
+  /// Report on inputs made of surfaces, for the user to judge.
   struct MadeOfSurfaces
   {
     /// A pose that was carried onto the mesh, and how well.
@@ -17,16 +17,16 @@ namespace Exemplar
       PoseQuality quality;
     };
 
-    MeshingReport            mesh; ///< empty if the mesh was not made of one
+    MeshingReport            mesh; ///< empty if the mesh was not made of a surface
     std::vector<Pose>        poses;
-    std::vector<std::string> warnings; ///< of the making
+    std::vector<std::string> warnings; ///< of meshing and of carrying poses
   };
 
-  /// What to know of it, a line each.
+  /// The report for the user, a line each.
   std::vector<std::string>
   lines_of(const MadeOfSurfaces &made);
 
-  /// What was wrong in the making, and poses that the mesh follows badly.
+  /// Warnings of meshing and of carrying poses, and of poses that the mesh follows badly.
   std::vector<std::string>
   warnings_of(const MadeOfSurfaces &made);
 } // namespace Exemplar

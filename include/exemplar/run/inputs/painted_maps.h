@@ -9,12 +9,12 @@
 
 namespace Exemplar
 {
-  /// The constants of the material that are painted on the surface. Throws UserError for values that
-  /// they cannot have.
+  /// The material's constants painted on the surface. Throws UserError for values out of range.
   PaintedMaterial
   read_painted_material(const SurfaceSources &from);
 
-  /// Of Examples/Weight maps, a value a cell each. Throws UserError for values that are no shares.
+  /// Shares by Examples/Weight maps, a value a cell in each. Throws UserError for values outside
+  /// [0, 1].
   std::vector<std::vector<double>>
   read_painted_shares(const SurfaceSources &from);
 } // namespace Exemplar

@@ -10,10 +10,10 @@
 
 namespace Exemplar
 {
-  /// A process' part of a body on its way.
+  /// A process' part of a body, as a message.
   struct Parcel
   {
-    std::string error; ///< why there is none; empty: all is well
+    std::string error; ///< why there is none; empty if there is one
     SharedNodes nodes;
     MeshPart    mesh;
     BodyFields  fields;
@@ -26,15 +26,15 @@ namespace Exemplar
     }
   };
 
-  /// What a process gets of a whole body.
+  /// A process' part of a whole body.
   Parcel
   parcel_of(const BodyInputs &whole, const PartOfBody &part);
 
-  /// To another process, which calls receive().
+  /// Send to another process, which calls receive().
   void
   send(const Parcel &parcel, unsigned int process, MPI_Comm communicator);
 
-  /// From the root.
+  /// Receive from the root.
   Parcel
   receive(MPI_Comm communicator);
 } // namespace Exemplar

@@ -10,18 +10,18 @@
 
 namespace Exemplar
 {
-  /// What one process gets of a body.
+  /// Which cells, faces and nodes of a body one process has.
   struct PartOfBody
   {
     std::vector<unsigned int> cells; ///< ascending
-    std::vector<unsigned int> faces; ///< of the boundary, the same
-    /// As FESpace has them: those of the file and, of quadratic elements, those on edges behind them.
+    std::vector<unsigned int> faces; ///< of the boundary, ascending
+    /// Nodes as in FESpace: those of the mesh file, then for quadratic elements those on edges.
     SharedNodes nodes;
   };
 
-  /// Part a whole body among processes. Cells are partitioned by METIS, those of one patch stay
-  /// together; `patches` are those of the cells, or empty. Throws UserError for more processes than
-  /// there are cells or patches for.
+  /// Partition a whole body among processes by METIS, with cells of one patch kept together;
+  /// `patches` has the patch of each cell, or is empty. Throws UserError if there are fewer cells
+  /// or patches than processes.
   std::vector<PartOfBody>
   part_body(const Mesh                      &mesh,
             const std::vector<unsigned int> &patches,

@@ -13,11 +13,11 @@ namespace Exemplar
 {
   struct SceneParameters;
 
-  /// Is told what takes seconds before it begins.
+  /// Callback before work that takes seconds, with its description.
   using Announce = std::function<void(const std::string &)>;
 
-  /// Mesh and poses that a scene names as surfaces. They are made as `exemplar mesh` and `exemplar
-  /// pose` make them, and kept (see kept_bytes()) under the SHA-256 of all that they follow from.
+  /// Mesh and poses that a scene gives as surfaces, made as by `exemplar mesh` and `exemplar pose`.
+  /// They are cached (see kept_bytes()) under the SHA-256 of all data that they depend on.
   class SurfaceInputs
   {
   public:
@@ -25,21 +25,21 @@ namespace Exemplar
     SurfaceInputs(const SceneParameters &scene, Announce announce);
     ~SurfaceInputs();
 
-    /// Read and check a pose of the scene's surface, which takes no time. Throws UserError.
+    /// Read and check a pose of the scene's surface, which is fast. Throws UserError.
     void
     read_pose(const std::string &file);
 
-    /// The mesh inside of Mesh/File. Throws UserError for a surface that bounds no body,
+    /// Mesh the inside of Mesh/File. Throws UserError for a surface that bounds no body,
     /// SolverFailure for one that cannot be filled.
     MshFile
     make_mesh();
 
-    /// The places of the mesh's nodes in a pose that has been read. Throws UserError if the mesh is
-    /// not of the surface's inside, SolverFailure if cells stay inverted.
+    /// The positions of the mesh's nodes in a pose that has been read. Throws UserError if the mesh
+    /// does not fill the surface, SolverFailure if cells stay inverted.
     std::vector<dealii::Point<3>>
     carry(const std::string &file, const MshFile &mesh);
 
-    /// Null if nothing was made of surfaces.
+    /// The report; null if nothing was made of surfaces.
     std::shared_ptr<const MadeOfSurfaces>
     get_made() const
     {
@@ -49,14 +49,14 @@ namespace Exemplar
   private:
     struct Poses;
 
-    /// Of the poses that have been read, by name, if the mesh depends on them: if sheets of the surface
-    /// cross at rest.
+    /// Files of the poses read so far, by name, if the mesh depends on them, that is if sheets of
+    /// the surface cross at rest; else none.
     std::vector<std::filesystem::path>
     parting_poses() const;
 
     MadeOfSurfaces &
     get_made_anew();
-    /// Once, if there is one.
+    /// Add to the report's warnings, unless it is empty or there already.
     void
     add_warning(const std::string &warning);
 

@@ -11,7 +11,7 @@
 
 namespace Exemplar
 {
-  /// What the surface of the body says of its nodes and cells.
+  /// Data at nodes and cells that are read off the body's surface.
   struct SurfaceReadings
   {
     NamedNodes                       nodes;    ///< of selections, by their texts
@@ -21,9 +21,9 @@ namespace Exemplar
     std::vector<std::string>         warnings;
   };
 
-  /// Read all that a scene asks for off the surface among the inputs; nothing if it asks for
-  /// nothing. Throws UserError for selections without nodes, values out of range, caches that are
-  /// damaged, and a surface that is not around the mesh.
+  /// Read all data that a scene takes off the surface among the inputs; the result is empty if it
+  /// takes none. Throws UserError for selections without nodes, values out of range, damaged
+  /// caches, and a surface that does not enclose the mesh.
   SurfaceReadings
   read_off_surface(const SceneParameters &scene, const Mesh &mesh, const Inputs &inputs);
 } // namespace Exemplar

@@ -11,14 +11,14 @@
 
 namespace Exemplar
 {
-  /// What is there to read off the surface of a body.
+  /// Where data on the surface of a body are read from.
   struct SurfaceSources
   {
     const SceneParameters    &scene;
     const Mesh               &mesh;
     const Inputs             &inputs;
     const SurfaceSelector    &selector;
-    std::vector<std::string> &warnings; ///< grow
+    std::vector<std::string> &warnings; ///< appended to
   };
 } // namespace Exemplar
 

@@ -13,12 +13,12 @@
 
 namespace Exemplar
 {
-  /// Where a run went on with another scene.
+  /// A change of the scene at a resume.
   struct SceneEdit
   {
-    unsigned int step;   ///< the last one of the scene before
-    std::string  before; ///< the file that holds it, original_N.prm
-    std::string  scene;  ///< digest_of() the scene that goes on
+    unsigned int step;   ///< the last step of the scene before
+    std::string  before; ///< the copy of that scene, original_N.prm
+    std::string  scene;  ///< digest_of() the scene after
   };
 
   /// Totals over all steps, for the summary.
@@ -29,14 +29,14 @@ namespace Exemplar
     double       worst_residual = 0.;
     PhaseSeconds seconds{};
 
-    // by these a state is known as one of this run
+    // history of scenes, which tells whether a state is one of this run
     std::string            first_scene; ///< digest_of() the scene with which the run began
     std::vector<SceneEdit> edits;       ///< in order
   };
 
-  /// A state on disk, of the last step or of a frame that is kept: what a resumed run needs to end in the same bytes as one that was never stopped. Rotations
-  /// and matrices are not here, because they follow from the state and from what the step solver
-  /// remembers.
+  /// A state on disk, of the last step or of a kept frame: all data with which a resumed run ends
+  /// in the same bytes as one that was never stopped. Rotations and matrices follow from the state
+  /// and the step solver's memory.
   struct Checkpoint
   {
     std::map<std::string, std::string> parameters;    ///< key path -> value
@@ -46,7 +46,7 @@ namespace Exemplar
     Work                               work;
     RunTotals                          totals;
     std::uintmax_t                     statistics_bytes = 0; ///< of statistics.csv at this state
-    std::string                        statistics_digest;    ///< SHA-256 of these
+    std::string                        statistics_digest;    ///< SHA-256 of these bytes
   };
 
   /// Atomic: a kill at any moment leaves the checkpoint before or the new one.
@@ -58,12 +58,12 @@ namespace Exemplar
   Checkpoint
   load_checkpoint(const std::filesystem::path &file);
 
-  /// The root's to all processes that share a body.
+  /// Broadcast the root's checkpoint to all processes that share a body.
   void
   share(const Exchange &exchange, Checkpoint &checkpoint);
 
-  /// Put the problem where the checkpoint of that file, of a whole body, was saved. Throws UserError if what its
-  /// solver remembered cannot be read.
+  /// Set the problem to the checkpoint in `file`, which is of a whole body. Throws UserError if the
+  /// solver's memory cannot be read.
   void
   restore(const Checkpoint &checkpoint, const std::filesystem::path &file, Problem &problem);
 } // namespace Exemplar

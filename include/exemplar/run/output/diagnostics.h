@@ -16,12 +16,12 @@ namespace Exemplar
   {
     std::string column;
 
-    /// Nothing: not known.
+    /// The value; monostate: not known.
     std::variant<std::monostate, double, unsigned int, std::string> value = {};
 
-    bool is_of_report = false; ///< of a step that failed, it is known, too
+    bool is_of_report = false; ///< known also for a step that failed
 
-    /// As the file has it: numbers that are not finite are empty.
+    /// The text in the file; empty for numbers that are not finite.
     std::string
     text() const;
   };
@@ -42,8 +42,9 @@ namespace Exemplar
   class Diagnostics
   {
   public:
-    /// What columns rows have: those of the problem as it stands, or as it stood in the beginning, for a file, whose rows
-    /// are alike also where a session holds more of the body later, or adds a load.
+    /// Which columns rows have: those that the problem needs now, or those that it needed at the
+    /// beginning. A file's rows have the same columns even if a session later adds handles or
+    /// loads.
     enum class Columns
     {
       of_present,
@@ -57,7 +58,7 @@ namespace Exemplar
     void
     add_step();
 
-    /// Go on from the problem's state with work done before.
+    /// Continue from the problem's state with the work done before.
     void
     resume(const Work &earlier);
 
@@ -86,16 +87,16 @@ namespace Exemplar
     void
     append_work(StatisticsRow &row) const;
 
-    /// energy_dissipated, what all that dissipates has done since the first step.
+    /// Column energy_dissipated: the total of all dissipation since the first step [J].
     void
     append_dissipated(StatisticsRow &row, const State &shown) const;
 
-    /// All that the problem has now.
+    /// The row with all columns that the problem needs now.
     StatisticsRow
     present_row(const State &shown, const SolveReport &report) const;
 
     const Problem           &problem;
-    std::vector<std::string> columns;        ///< of rows; empty: those of the present
+    std::vector<std::string> columns;        ///< of rows; empty: as the problem is now
     Vector                   last_positions; ///< before the next step [m]
     Work                     work;
   };

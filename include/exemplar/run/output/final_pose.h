@@ -22,21 +22,21 @@ namespace Exemplar
     double
     max_displacement() const;
 
-    /// That of the node nearest to a rest position [m].
+    /// The displacement [m] of the node nearest to a rest position [m].
     dealii::Tensor<1, 3>
     displacement_near(const dealii::Point<3> &point) const;
 
     const std::vector<dealii::Point<3>> rest;
     const std::vector<dealii::Point<3>> positions;
-    std::vector<double>                 volumes; ///< a quarter of each cell's to each node
+    std::vector<double>                 volumes; ///< of nodes: a quarter of each of their cells
   };
 
   /// Reads the final poses of runs, and a mesh once for all runs that have it.
   class FinalPoseReader
   {
   public:
-    /// What a run of the scene has left in a directory. Throws UserError if it is not there, or of
-    /// another mesh.
+    /// The final pose that a run of the scene has left in a directory. Throws UserError if it is
+    /// missing, or of another mesh.
     FinalPose
     read(const SceneFile &scene, const std::filesystem::path &directory);
 

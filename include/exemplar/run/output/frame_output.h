@@ -26,27 +26,28 @@ namespace Exemplar
   class FrameOutput
   {
   public:
-    /// Keeps references to all three; `formats` are all that there are. Throws UserError
-    /// if the scene asks for another one, or shows a surface that is not that of the body.
+    /// Keeps references to all three; `formats` are all that exist. Throws UserError if the scene
+    /// asks for another one, or shows a surface that is not that of the body.
     FrameOutput(Problem                        &problem,
                 const RunDirectory             &directory,
                 const std::vector<FrameFormat> &formats);
 
-    /// Whether a step has a frame: every so many steps, and the last.
+    /// Whether a step has a frame: every Output/Every steps, and the last.
     bool
     is_due(unsigned int step) const;
 
-    /// Where a format shows the surface of the body, write it at rest, rest.obj, and as it is in the
-    /// poses of the examples, NAME.obj for each weight NAME of statistics.csv; of weights of a region
-    /// only the region is in the pose. What the body carries likewise, with its name behind.
+    /// If a format shows the surface of the body, write it at rest, rest.obj, and in the poses of
+    /// the examples, NAME.obj for each weight NAME of statistics.csv; for a weight of a region, the
+    /// region alone is in the pose. Carried surfaces are written likewise, with their names
+    /// appended.
     void
     write_shapes() const;
 
-    /// Take what the next step changes from the problem's state and have it written.
+    /// Copy the changing data from the problem's state and have the frame written.
     void
     write(std::optional<SpaceError> space_error = {});
 
-    /// Whether a format lacks the frame of the present step.
+    /// Whether the frame of the present step is missing in a format.
     bool
     is_missing() const;
 
@@ -54,12 +55,12 @@ namespace Exemplar
     void
     drain();
 
-    /// Write the files that show all frames, also those that an earlier part of a resumed run
-    /// has left. To be called after drain().
+    /// Write the animations, including frames of earlier parts of a resumed run. Call after
+    /// drain().
     void
     write_animations() const;
 
-    /// Remove a step's frame, in whatever format.
+    /// Remove a step's frame, in all formats.
     void
     remove(unsigned int step) const;
 
@@ -69,12 +70,12 @@ namespace Exemplar
 
     using Writer = std::pair<const FrameFormat *, std::unique_ptr<const FrameWriter>>;
 
-    /// What has frames: the body, or a surface that it carries.
+    /// An object with frames: the body, or a surface that it carries.
     struct Shown
     {
-      std::string                        carried; ///< its name; empty: the body
-      const SurfaceMesh                 *surface; ///< null if no format shows that of the body
-      std::unique_ptr<const SurfaceSkin> skin;    ///< that carries it; null likewise
+      std::string                        carried; ///< name of a carried surface; empty: the body
+      const SurfaceMesh                 *surface; ///< null if no format shows the body's surface
+      std::unique_ptr<const SurfaceSkin> skin;    ///< interpolates the surface; null likewise
       std::vector<Writer>                writers; ///< of the formats in use; empty without frames
     };
 
@@ -91,18 +92,18 @@ namespace Exemplar
     void
     write_shapes_of(const Shown &shown) const;
 
-    /// How far nodes have moved in the pose of weight i [m].
+    /// Displacements of the nodes from rest in the pose of weight i [m].
     Vector
     displacement_of_weight(unsigned int i) const;
 
     static void
     refuse_what_is_not_finite(const Frame &frame);
 
-    /// The files of a frame; of a body that processes share, this one's piece.
+    /// Write the files of a frame; for a body that processes share, this process' piece.
     void
     write_files(Frame &frame) const;
 
-    /// The frame of a step, or what joins its pieces.
+    /// The file of a step's frame, or the one that joins its pieces.
     std::filesystem::path
     file_of(const FrameFormat &format, unsigned int step, const std::string &carried) const;
 
@@ -114,7 +115,7 @@ namespace Exemplar
     const RunDirectory             &directory;
     const std::vector<FrameFormat> &formats;
 
-    std::vector<Shown> all_shown;  ///< the body, then what it carries
+    std::vector<Shown> all_shown;  ///< the body, then carried surfaces
     BackgroundWriter   background; ///< last, as its jobs use the others
   };
 } // namespace Exemplar

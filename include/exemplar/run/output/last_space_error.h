@@ -15,22 +15,22 @@ namespace Exemplar
     /// The problem must outlive this.
     explicit LastSpaceError(Problem &problem) : problem(problem), estimator(problem) {}
 
-    /// Find it, unless it is known, if it is asked for at the present step, which may have a frame.
+    /// Estimate the error unless it is known, if the scene asks for it at the present step.
     void
     find(bool has_frame);
 
-    /// The same at the end of a run, which may come before the last step.
+    /// Estimate the error at the end of a run, which may come before the last step.
     void
     find_at_end();
 
-    /// Another step has come.
+    /// Drop the estimate after another step.
     void
     forget()
     {
       error.reset();
     }
 
-    /// Nothing if it has not been asked for.
+    /// The estimate; nothing if it has not been asked for.
     const std::optional<SpaceError> &
     get() const
     {

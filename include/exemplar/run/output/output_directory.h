@@ -6,45 +6,45 @@
 #include <string>
 #include <vector>
 
-// What directories of results have in common, of runs and of studies. Messages end in
-// `remedy`, which says how to choose another directory.
+// Checks that directories of runs and of studies share. Messages end in `remedy`, which says how to
+// choose another directory.
 
 namespace Exemplar
 {
-  /// Throws UserError unless `path` is a directory, or may become one, in which may be written.
+  /// Throws UserError unless `path` is, or can be made, a directory with permission to write.
   void
   require_writable(const std::filesystem::path &path, const std::string &remedy);
 
-  /// Throws UserError if that fails.
+  /// Throws UserError if the directory cannot be made.
   void
   make_directory(const std::filesystem::path &path, const std::string &remedy);
 
-  /// A file to be written, and how the program knows one that it has written itself.
+  /// A file to be written, and how the program recognises its own.
   struct OwnFile
   {
     std::filesystem::path path;
     std::string           beginning;
-    std::string           end = ""; ///< if the file is whole
+    std::string           end = ""; ///< of a complete file
   };
 
-  /// Throws UserError if a file that this program has not written is in the way of one to be written or
-  /// of its temporary, or if it is one of `inputs`.
+  /// Throws UserError if this would overwrite a file, or temporary file, of another program, or one
+  /// of `inputs`.
   void
   require_replaceable(const OwnFile                            &file,
                       const std::vector<std::filesystem::path> &inputs,
                       const std::string                        &remedy);
 
-  /// Whether a file begins with this line, by which a directory is known as ours.
+  /// Whether a file begins with this line, which marks directories of this program.
   bool
   begins_with(const std::filesystem::path &file, const std::string &line);
 
-  /// Whether nothing has this name, not even a link that leads nowhere.
+  /// Whether no file has this name, not even a dangling link.
   bool
   is_absent(const std::filesystem::path &file);
 
-  /// Why a file is none that we have written, in words that follow "which": it is a directory, a
-  /// link or protected, or does not begin as all that we write under its name does. Empty: it may be
-  /// ours. A file that ends too early may be: it was written when the machine failed.
+  /// Why a file cannot be one that this program has written, in words that follow "which": it is a
+  /// directory, a link or protected, or does not begin like such files. Empty if it may be one. A
+  /// truncated file may be, from a crash of the machine.
   std::string
   objection_to(const std::filesystem::path &file, const std::string &beginning);
 } // namespace Exemplar

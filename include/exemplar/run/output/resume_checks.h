@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-// By what a checkpoint knows the scene that it belongs to.
+// Checks of whether a checkpoint belongs to a scene.
 
 namespace Exemplar
 {
@@ -22,14 +22,13 @@ namespace Exemplar
   std::map<std::string, std::string>
   digests_of(const SceneFile &scene);
 
-  /// SHA-256 of all of a scene that its states follow from: its values, without those that a resumed run
-  /// may change, and its input files.
+  /// SHA-256 of all data of a scene that determine its states: input files, and values except those
+  /// that a resumed run may change.
   std::string
   digest_of(const SceneFile &scene, const std::map<std::string, std::string> &input_digests);
 
-  /// Throws UserError unless `state`, which was kept in `file`, is that of `step` in the run that has
-  /// left `last`, its latest checkpoint, and unless `statistics` begins with the rows up to the later of
-  /// both.
+  /// Throws UserError unless `state`, from `file`, is that of `step` in the run whose latest
+  /// checkpoint is `last`, and `statistics` begins with the rows up to the later of both.
   void
   check_kept_state(const Checkpoint            &state,
                    const std::filesystem::path &file,
@@ -37,9 +36,9 @@ namespace Exemplar
                    const Checkpoint            &last,
                    const std::filesystem::path &statistics);
 
-  /// Throws UserError if the checkpoint in `file` is none of this scene and its input files, does
-  /// not stand at a step of it, or holds a state that is none of its problem: of other sizes, or
-  /// not finite. A resumed run may end later and write differently; all else must be the same.
+  /// Throws UserError if the checkpoint in `file` does not belong to this scene and its input
+  /// files, is of no step of it, or holds a state of other sizes or one that is not finite. A
+  /// resumed run may have another end and other output; all else must agree.
   void
   check_resumable(const Checkpoint                         &checkpoint,
                   const SceneFile                          &scene,
@@ -47,10 +46,10 @@ namespace Exemplar
                   const Problem                            &problem,
                   const std::filesystem::path              &file);
 
-  /// The same for a run that may go on with another scene: of the same kind, mesh and steps of time.
-  /// If the scene is another one, what the solver remembered is dropped from the checkpoint, and so
-  /// are weights that the scene does not have: it gets those that the problem begins with. Returns
-  /// whether it is, and what the user must know of it.
+  /// Result of check_editable(), which is check_resumable() for a run that may continue with
+  /// another scene of the same kind, mesh and time steps. If the scene differs, the solver's memory
+  /// is dropped from the checkpoint; if the weights' number or rule differs, they restart from
+  /// those of the problem. `notes` are for the user.
   struct EditCheck
   {
     bool                     is_edited = false;

@@ -8,19 +8,19 @@
 
 namespace Exemplar
 {
-  /// Keeps the totals of a run, and the time between its steps.
+  /// Totals of a run, and the time between its steps.
   class RunAccount
   {
   public:
     /// `clock` must outlive this.
     explicit RunAccount(StepClock &clock) : clock(clock) {}
 
-    /// The run goes on from these totals.
+    /// Continue from these totals.
     void
     take_over(const RunTotals &earlier);
 
-    /// Steps begin: what follows and no other part of the clock claims, such as moving the handles,
-    /// counts as evaluation.
+    /// Begin the steps: from now on, time that no other part of the clock claims, such as moving
+    /// the handles, counts as evaluation.
     void
     begin_steps();
 

@@ -15,52 +15,51 @@
 
 namespace Exemplar
 {
-  /// Where a run writes, and what it writes: by their names and beginnings its files are known.
+  /// The directory of a run, whose files are recognised by their names and beginnings.
   class RunDirectory
   {
   public:
-    /// Keeps a reference to `formats`, all that frames of an earlier run may have.
+    /// Keeps a reference to `formats`, all formats that frames of an earlier run may have.
     explicit RunDirectory(std::filesystem::path           path,
                           const std::vector<FrameFormat> &formats = frame_formats());
 
-    /// Make the directory, or clear it of what an earlier run has written, and keep all others out of
-    /// it as long as this object lives. Throws UserError, with nothing changed, if a run is
-    /// writing there already, if the directory is none, cannot be written or is not of a run, if
-    /// something in it has the name of a run's file but is none, or if one of `input_files` would be
-    /// cleared away.
+    /// Make the directory, or remove the files of an earlier run, and lock it for the lifetime of
+    /// this object. Throws UserError, with nothing changed, if a run is writing there already, if
+    /// it is no directory, is write-protected or not of a run, if some file has the name of a run's
+    /// file but is none, or if one of `input_files` would be removed.
     void
     take_for_new_run(const std::vector<std::filesystem::path> &input_files);
 
-    /// The same for a run that goes on there. Nothing is cleared, and where there is no directory nothing
-    /// happens: then there is no checkpoint, either.
+    /// Lock the directory for a run that continues there; throws as take_for_new_run(). Nothing is
+    /// removed, and if there is no directory, and so no checkpoint, nothing happens.
     void
     take_for_resume(const std::vector<std::filesystem::path> &input_files);
 
-    /// Remove frames and states that an earlier run has written of steps after this one, and what it had not
-    /// finished when it was killed: a run that goes on from here need not write them again.
+    /// Remove frames and states of steps after this one, and the temporary files of a killed run,
+    /// which a run that continues need not write again.
     void
     remove_frames_after(unsigned int step) const;
 
-    /// Remove files that show all frames: a run that goes on writes its own at its end.
+    /// Remove the animations: a run that continues writes its own at its end.
     void
     remove_animations() const;
 
-    /// Remove surfaces of examples, of which an edited scene may have fewer.
+    /// Remove surfaces of examples: an edited scene may have fewer.
     void
     remove_shapes() const;
 
-    /// Of a process that writes into a directory which another one has taken.
+    /// Watch the directory, in a process that writes there while another process holds the lock.
     void
     watch();
 
-    /// Do something in the directory that was taken, or is watched. Throws std::runtime_error if it has been
-    /// removed or replaced before, or if that is why the action failed, for what stands there now may be
-    /// another run's; what the action throws otherwise.
+    /// Run an action in the directory that is locked or watched. Throws std::runtime_error if it
+    /// has been removed or replaced, before or during the action, as its files may be another
+    /// run's; else passes on exceptions of the action.
     void
     do_inside(const std::function<void()> &action) const;
 
-    /// Why a file in this directory is none that a run has written, in words that follow "which"; empty
-    /// if it is one, by its name and beginning.
+    /// Why a file in this directory cannot be one of a run, in words that follow "which"; empty if
+    /// it is one, by its name and beginning.
     std::string
     objection_to(const std::string &name) const;
 
@@ -80,28 +79,28 @@ namespace Exemplar
       return files;
     }
 
-    /// The steps of which a state is kept, ascending.
+    /// The steps of the kept states, ascending.
     std::vector<unsigned int>
     kept_states() const;
 
-    /// Copy the scene and the statistics of the steps so far to original_N.prm, parameters_N.prm and
+    /// Copy the scene and the statistics so far to original_N.prm, parameters_N.prm and
     /// statistics_N.csv with the first free number N; returns the name of the scene's copy.
     std::string
     keep_earlier_scene() const;
 
-    /// The first line of parameters.prm: by it a directory is known as ours.
+    /// The first line of parameters.prm, which marks directories of runs.
     static const std::string mark;
 
     /// The first line of log.txt.
     static const std::string log_mark;
 
   private:
-    /// What a file of this name begins with if a run has written it, or has left it when it was
-    /// killed; nothing if no run writes such a file.
+    /// The beginning of files of this name if a run, even a killed one, has written them; nothing
+    /// if runs write no such files.
     std::optional<std::string>
     beginning_of(const std::string &name) const;
 
-    /// The names in the directory that runs write.
+    /// The names in the directory that belong to files of runs.
     std::vector<std::string>
     own_names() const;
 
@@ -111,7 +110,7 @@ namespace Exemplar
     void
     require_in_place() const;
 
-    /// Throws UserError if one of the inputs is among the files of these names.
+    /// Throws UserError if an input file has one of these names in the directory.
     void
     refuse_inputs(const std::vector<std::string>           &names,
                   const std::vector<std::filesystem::path> &input_files,
@@ -121,7 +120,7 @@ namespace Exemplar
     void
     refuse_directory_of_others(const std::vector<std::string> &names) const;
 
-    /// The beginning of the message that says so.
+    /// The beginning of the message of refuse_directory_of_others().
     std::string
     refusal_of(const std::string &name, const std::string &objection) const;
 
@@ -130,8 +129,8 @@ namespace Exemplar
 
     RunFiles                             files;
     const std::vector<FrameFormat>      &formats;
-    std::unique_ptr<const DirectoryLock> taken;   ///< null: it is not
-    std::unique_ptr<const OpenDirectory> watched; ///< the same
+    std::unique_ptr<const DirectoryLock> taken;   ///< lock of this process; null: none
+    std::unique_ptr<const OpenDirectory> watched; ///< null: not watched
   };
 } // namespace Exemplar
 

@@ -11,7 +11,7 @@ namespace Exemplar
   {
     std::filesystem::path directory;
 
-    /// The scene as it was given.
+    /// The scene as given.
     std::filesystem::path
     original_prm() const
     {
@@ -36,7 +36,7 @@ namespace Exemplar
       return directory / "summary.json";
     }
 
-    /// What the run has told its user.
+    /// The messages of the run.
     std::filesystem::path
     log() const
     {
@@ -49,7 +49,7 @@ namespace Exemplar
       return directory / "final.msh";
     }
 
-    /// Of the mesh that was made, if Mesh/File is a surface: final.msh is a pose of it.
+    /// The rest mesh if Mesh/File is a surface; final.msh is a pose of it.
     std::filesystem::path
     rest_mesh() const
     {
@@ -62,7 +62,7 @@ namespace Exemplar
       return directory / "checkpoint.bin";
     }
 
-    /// The state that is kept of a step's frame.
+    /// The kept state of a step's frame.
     std::filesystem::path
     state(unsigned int step) const;
   };

@@ -20,12 +20,11 @@
 
 namespace Exemplar
 {
-  /// Writes everything that a run of a problem leaves on disk. All processes that share a body must
-  /// call its functions: the root writes all but the others' pieces of frames, and what one throws all
-  /// throw. With more than one thread, frames
-  /// are written while the next step is computed; what begin(), add_step() and finish()
-  /// throw may then be the error of an earlier frame. Checkpoints and what finish()
-  /// writes wait for all frames before them.
+  /// Writes all files of a run. All processes that share a body must call its functions: the root
+  /// writes all files but the others' pieces of frames, and exceptions are thrown by all. With more
+  /// than one thread, frames are written while the next step is computed; begin(), add_step() and
+  /// finish() may then throw the error of an earlier frame. Checkpoints and the files of finish()
+  /// are written after all earlier frames.
   class RunWriter
   {
   public:
@@ -40,21 +39,20 @@ namespace Exemplar
     void
     begin();
 
-    /// Go on from the checkpoint in the directory, which sets the problem's state.
-    /// Throws UserError, with nothing changed, if the scene is another one.
+    /// Continue from the checkpoint in the directory, which sets the problem's state. Throws
+    /// UserError, with nothing changed, if the scene is another one.
     void
     resume();
 
-    /// Go on from the state of a step that is kept, or from the checkpoint if that is of this step,
-    /// with this scene or another one of the same kind, mesh and steps of time. What was written of
-    /// later steps is removed; before an edited scene goes on, the earlier one and its statistics are
-    /// copied to original_N.prm, parameters_N.prm and statistics_N.csv. Throws UserError, with
-    /// nothing changed, if that cannot be; returns what the user must know.
+    /// Continue from the kept state of a step, or from the checkpoint if it is of this step, with
+    /// this scene or another one of the same kind, mesh and time steps. Files of later steps are
+    /// removed; if the scene was edited, the earlier one and its statistics are first copied to
+    /// original_N.prm, parameters_N.prm and statistics_N.csv. Throws UserError, with nothing
+    /// changed, if that is impossible; returns notes for the user.
     std::vector<std::string>
     resume_from(unsigned int step);
 
-    /// Write what follows a solve: the frame, the row of statistics, and a checkpoint
-    /// when its time has come.
+    /// Write the frame and the row of statistics after a step, and a checkpoint when it is due.
     void
     add_step(const SolveReport &report);
 
@@ -68,7 +66,7 @@ namespace Exemplar
       return account.get_totals();
     }
 
-    /// Of the last step, if the scene asks for it and the step was made.
+    /// Error in space of the last step, if the scene asks for it and the step was made.
     const std::optional<SpaceError> &
     get_space_error() const
     {
@@ -76,14 +74,14 @@ namespace Exemplar
     }
 
   private:
-    /// What the root does alone, while the directory is the one that it has taken.
+    /// Run an action on the root alone, in its locked directory.
     void
     at_root(const std::function<void()> &action) const;
 
     void
     write_original() const;
 
-    /// All values in force, behind what says where the run went on with another scene.
+    /// Write all values in force, after comments on the edits of the scene.
     void
     write_parameters(const std::vector<SceneEdit> &edits) const;
 
@@ -93,11 +91,11 @@ namespace Exemplar
     void
     write_final_pose() const;
 
-    /// What is saved of the present state; whole at the root.
+    /// The checkpoint of the present state; complete on the root.
     Checkpoint
     present() const;
 
-    /// Write a row of statistics.csv; of a failed step it is of no state.
+    /// Write a row of statistics.csv; `is_of_state` is false for a failed step.
     void
     write_row(StatisticsRow row, const std::optional<PhaseSeconds> &seconds, bool is_of_state);
 
@@ -108,20 +106,20 @@ namespace Exemplar
     void
     write_frame();
 
-    /// If states are kept and the present step has a frame.
+    /// Keep the state if the scene keeps states and the present step has a frame.
     void
     keep_state() const;
 
-    /// What all that go on do at last: frames and clocks.
+    /// The last part of resume() and resume_from(): frames and clocks.
     void
     go_on_from(const Checkpoint &checkpoint);
 
-    /// The file that holds the state of a step, and what it holds. Throws UserError unless it is of
-    /// the run in the directory, and so is statistics.csv.
+    /// Load the state of a step; returns the file's name. Throws UserError unless it and
+    /// statistics.csv are of the run in the directory.
     std::filesystem::path
     load_state(unsigned int step, Checkpoint &checkpoint) const;
 
-    /// The name of the file that holds the state of a step; empty if it is that of the checkpoint.
+    /// The name of the file of a step's kept state; empty if it is the checkpoint.
     std::filesystem::path
     find_state(unsigned int step, unsigned int last) const;
 

@@ -18,12 +18,12 @@ namespace Exemplar
     /// A new file.
     explicit StatisticsFile(const std::filesystem::path &path);
 
-    /// Go on behind the first `n_bytes` of a file and forget the rest.
+    /// Append after the first `n_bytes` of a file; the rest is cut off.
     StatisticsFile(const std::filesystem::path &path, std::uintmax_t n_bytes);
 
-    /// Number of bytes up to the row of a step, which must be there, in the columns of `row`. If they were
-    /// others, the file is replaced by these rows: columns that `row` has not are left out, and what
-    /// earlier rows lack is empty.
+    /// Number of bytes up to the row of a step, which must exist, in the columns of `row`. If the
+    /// file's columns differ, it is rewritten: columns that `row` lacks are dropped, and new ones
+    /// are empty in earlier rows.
     static std::uintmax_t
     keep_rows(const std::filesystem::path &path, unsigned int step, const StatisticsRow &row);
 

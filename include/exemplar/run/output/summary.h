@@ -14,7 +14,7 @@
 
 namespace Exemplar
 {
-  /// What is known of the last step, if the scene asks for it.
+  /// Estimates of the last step, if the scene asks for them.
   struct LastEstimates
   {
     std::optional<SpaceError>       space_error;
@@ -22,7 +22,7 @@ namespace Exemplar
   };
 
   /// Write summary.json: the program, the scene's sizes, totals over all steps, the warnings of the
-  /// run, estimates of its last step, what was used and what was left out.
+  /// run, estimates of its last step, and the parts of the problem in use and not in use.
   void
   write_summary(Problem                        &problem,
                 const RunTotals                &totals,

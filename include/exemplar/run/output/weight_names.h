@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-// What belongs to a weight or to its region is called so in statistics.csv and in the names of files.
+// Names of weights and regions in statistics.csv and in file names.
 
 namespace Exemplar
 {
@@ -21,7 +21,7 @@ namespace Exemplar
     return id ? fmt::format("{}_{}", prefix, *id) : prefix;
   }
 
-  /// The same and _i, of example i.
+  /// `prefix`_i or `prefix`_R_i of the weight of example i.
   inline std::string
   name_of_weight(const std::string &prefix, const ExamplePoses &poses, const unsigned int weight)
   {
@@ -29,13 +29,13 @@ namespace Exemplar
     return fmt::format("{}_{}", name_of_region(prefix, poses, weight / n), weight % n);
   }
 
-  /// An example as people call it: its file without folders and ending, "rest", or "formula i".
+  /// Short name of an example: its file without folders and extension, "rest", or "formula i".
   inline std::string
   short_name_of_pose(const ExamplePoses &poses, const unsigned int i)
   {
     const std::string &name = poses.name(i);
     return name.find(';') == std::string::npos ? std::filesystem::path(name).stem().string()
-                                               : fmt::format("formula {}", i); // which is long
+                                               : fmt::format("formula {}", i); // as it is long
   }
 } // namespace Exemplar
 

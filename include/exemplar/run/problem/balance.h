@@ -7,10 +7,10 @@
 
 namespace Exemplar
 {
-  /// The stresses with which a body stands in its rest pose under the loads of t = 0 (Loads/Balanced):
-  /// tau = C : sym grad u with K u = f at rest, corrected until sum V tau g = f to rounding on what is free.
-  /// Where the linear solver makes a factor, `warnings` gets a word on a body that would not stay there. Throws
-  /// UserError for what cannot be balanced. All processes must call this.
+  /// The stresses that hold a body in its rest pose under the loads of t = 0 (Loads/Balanced): tau
+  /// = C : sym grad u with K u = f at rest, corrected until sum V tau g = f to rounding on the free
+  /// degrees of freedom. If the linear solver factorises, `warnings` tells of a rest pose that is
+  /// not stable. Throws UserError for loads that cannot be balanced. All processes must call this.
   PointStresses
   initial_stresses(const SceneParameters    &parameters,
                    const Body               &body,

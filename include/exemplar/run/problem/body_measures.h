@@ -10,7 +10,7 @@ namespace Exemplar
   struct Body;
   class Exchange;
 
-  /// From the least to the greatest of some values.
+  /// The interval that values lie in; empty at first.
   struct Range
   {
     double minimum = std::numeric_limits<double>::infinity();
@@ -19,12 +19,12 @@ namespace Exemplar
     void
     add(double value);
 
-    /// Of all processes, which must all call it.
+    /// The range over all processes, which must all call it.
     Range
     over(const Exchange &exchange) const;
   };
 
-  /// What a user can compare with the body that was meant.
+  /// Measures of the body, which a user can compare with the intended ones.
   struct BodyMeasures
   {
     std::array<double, 3> size; ///< of the bounding box [m]
@@ -40,14 +40,15 @@ namespace Exemplar
     double
     length() const;
 
-    /// Of long parts about how thick they are: exact for long square bars [m].
+    /// Four times volume over area [m], about the thickness of long parts; exact for long square
+    /// bars.
     double
     thickness() const
     {
       return 4. * volume / area;
     }
 
-    /// How much weight there is for the stiffness: rho g / E [1/m], for an acceleration g [m/s^2].
+    /// Weight relative to stiffness: rho g / E [1/m] at an acceleration g [m/s^2].
     double
     weight_over_stiffness(double gravity) const
     {
@@ -55,7 +56,7 @@ namespace Exemplar
     }
   };
 
-  /// Of the body at rest. All processes that share it must call this.
+  /// The measures of the body at rest. All processes that share it must call this.
   BodyMeasures
   measure(const Body &body);
 } // namespace Exemplar

@@ -8,7 +8,7 @@
 
 namespace Exemplar
 {
-  /// Where the equilibrium of a static scene was looked for from, and what was found.
+  /// A start of the search for the equilibrium of a static scene, and its outcome.
   struct ExampleStart
   {
     std::string from;

@@ -6,19 +6,20 @@
 
 #include <optional>
 
-// A body with examples has an equilibrium near each of them, and steps find that which the way leads to. Here
-// others are looked for, from the examples themselves.
+// A body with examples has an equilibrium near each of them, and steps find one that depends on the
+// path. These functions search for others from the examples.
 
 namespace Exemplar
 {
-  /// Of a static scene that stands at its end, the example that has least energy, and clearly less than
-  /// the state, where it is placed with the held nodes at their places and the best weights; none if there
-  /// is no such. One evaluation an example. All processes must call this.
+  /// At the end of a static scene: the example with the least energy, evaluated with the held nodes
+  /// in place and the best weights, if that is clearly less than the state's; else nothing. One
+  /// evaluation an example. All processes must call this.
   std::optional<ExampleStart>
   missed_example(Problem &problem);
 
-  /// With Solver/Starts = examples, `end` becomes the equilibrium of least energy of those found from the
-  /// examples and itself; all are kept in the problem's Examples. All processes must call this.
+  /// With Solver/Starts = examples, replace `end` by the equilibrium of least energy among itself
+  /// and those found from the examples; all are recorded in the problem's Examples. All processes
+  /// must call this.
   void
   start_from_examples(Problem            &problem,
                       State              &end,

@@ -6,24 +6,25 @@
 
 #include <string>
 
-// What a run writes are finite numbers: a state that is none is not accepted.
+// Checks for NaN and infinity: a state with such numbers is not accepted.
 
 namespace Exemplar
 {
-  /// What of a state and of what was found at it is not finite, in words; empty if all is.
+  /// Names of the quantities at a state that are not finite; empty if all are.
   std::string
   what_is_not_finite(const State &state, const Evaluation &evaluation);
 
-  /// The same of what frames show of the cells.
+  /// Names of the cell results in frames that are not finite; empty if all are.
   std::string
   what_is_not_finite(const CellResults &cells);
 
-  /// Throws UserError if a problem's initial state is nothing to begin with. All processes must call this
-  /// and the next.
+  /// Throws UserError if quantities at the initial state are not finite. All processes must call
+  /// this and the next.
   void
   check_start(Problem &problem);
 
-  /// Make a failure of a report on a problem's step to `next` if that, evaluated, is not finite.
+  /// Turn a report on a problem's step to `next` into a failure if quantities at `next`, as
+  /// evaluated, are not finite.
   void
   refuse_what_is_not_finite(Problem &problem, const State &next, SolveReport &report);
 } // namespace Exemplar

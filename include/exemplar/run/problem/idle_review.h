@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-// What a scene has that does nothing. All processes that share the body must call these.
+// Checks for parts of a scene that have no effect. All processes that share the body must call
+// these.
 
 namespace Exemplar
 {
@@ -15,8 +16,8 @@ namespace Exemplar
   std::vector<std::string>
   idle_load_warnings(const Problem &problem);
 
-  /// For the header of a run, since it may be meant: nothing acts at all, or there are weights by
-  /// region where there is one region.
+  /// Notes for the header of a run, as it may be intended: nothing acts at all, or weights are by
+  /// region but there is one region.
   std::vector<std::string>
   idle_notes(const Problem &problem);
 } // namespace Exemplar

@@ -9,10 +9,9 @@
 
 namespace Exemplar
 {
-  /// The state before the first step: the rest pose or the one that Initial asks
-  /// for, moving with Initial/Velocity if `dynamic`; weight one on the first
-  /// example, or the prescribed weights at t = 0. `weights` may be null,
-  /// the pose is among `poses`. Throws UserError if it is not.
+  /// The state before the first step: the rest pose or that of Initial, which must be among
+  /// `poses`, with Initial/Velocity if `dynamic`; weight one on the first example, or the
+  /// prescribed weights at t = 0. Throws UserError if the pose is missing.
   State
   initial_state(const InitialParameters &parameters,
                 const Mesh              &mesh,

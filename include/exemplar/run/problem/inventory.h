@@ -10,7 +10,7 @@
 
 namespace Exemplar
 {
-  /// A kind of part that a problem may have, as summary.json names it.
+  /// A kind of part that a problem may have, with its name in summary.json.
   struct PartOfProblem
   {
     std::string                name;
@@ -19,7 +19,7 @@ namespace Exemplar
                                          ///< not told
   };
 
-  /// All kinds of parts, with what this problem has of them at present.
+  /// All kinds of parts, with their presence and memory in this problem.
   std::vector<PartOfProblem>
   inventory(const Problem &problem);
 } // namespace Exemplar

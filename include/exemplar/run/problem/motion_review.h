@@ -9,18 +9,18 @@
 
 namespace Exemplar
 {
-  /// Warnings of handles that seem to be given places instead of displacements, that jump where a
-  /// dynamic scene begins, or that move further than can be meant. `is_resumed`: the run begins
-  /// elsewhere. All processes that share the body must call this.
+  /// Warnings of handles whose displacements look like positions, that jump at the start of a
+  /// dynamic scene, or that move implausibly far. `is_resumed`: the run does not begin at the
+  /// scene's start. All processes that share the body must call this.
   std::vector<std::string>
   motion_warnings(const Problem &problem, bool is_resumed = false);
 
-  /// The same of the handles in the next step alone: for motions that a program has set. Throws what
-  /// Handles::move() throws.
+  /// motion_warnings() for the handles in the next step alone, whose motions a program has set.
+  /// Throws as Handles::move().
   std::vector<std::string>
   next_step_warnings(const Problem &problem);
 
-  /// Whether a handle leaves its rest at any time, or its motion is not finite. All processes that
+  /// Whether a handle is displaced at any time, or its motion is not finite. All processes that
   /// share the body must call this.
   bool
   is_any_handle_moved(const Problem &problem);

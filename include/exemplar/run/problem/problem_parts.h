@@ -19,8 +19,8 @@
 #include <optional>
 #include <vector>
 
-// The parts of a problem, grouped as they depend on each other. Pointers are null where a scene
-// does not need the part.
+// The parts of a problem, grouped by dependency. Pointers are null if a scene does not need the
+// part.
 
 namespace Exemplar
 {
@@ -30,58 +30,59 @@ namespace Exemplar
   /// The elastic body at rest.
   struct Body
   {
-    /// Takes the mesh of the inputs.
+    /// Moves the mesh out of the inputs.
     Body(const SceneParameters &parameters, BodyInputs &inputs);
 
-    /// With the processes that have other parts of the body.
+    /// Communication with the processes that have other parts of the body.
     const Exchange &
     exchange() const
     {
       return mesh.exchange();
     }
 
-    /// After a change of the material.
+    /// Update after a change of the material.
     void
     follow_material();
 
     const Mesh    mesh;
-    Material      material; ///< of examples with an elasticity of their own the sum with it
+    Material      material; ///< C, or C' of Eq. (38)
     const FESpace fe_space;
-    Patches       patches;       ///< of one mean dilatation each; none: cells know their own
-    Material      cell_material; ///< of the cells' own energy
-    /// How the mesh and its poses became of surfaces; null if none did.
+    Patches       patches;       ///< regions of one mean dilatation; none: by cell
+    Material      cell_material; ///< for the cells' own energy
+    /// Report on mesh and poses made of surfaces; null if none were.
     const std::shared_ptr<const MadeOfSurfaces> made;
-    /// What stood around gmsh, see MshFile::geo_walls.
+    /// Walls around gmsh's geometry, see MshFile::geo_walls.
     const std::optional<std::vector<std::string>> geo_walls;
-    const std::vector<std::string>                warnings; ///< of the making
+    const std::vector<std::string>                warnings; ///< of reading off the surface
     const std::shared_ptr<const SurfaceMesh>      surface;  ///< null unless it is needed
     const std::vector<CarriedSurface>             carried;  ///< of Mesh/Carry
     const std::shared_ptr<const Inputs> inputs; ///< null unless Output/Space error needs them
   };
 
-  /// What holds the body, and what is left free.
+  /// The constraints of the body, and its free degrees of freedom.
   struct Constraints
   {
-    /// Throws UserError for handles that are none, or that hold everything.
+    /// Throws UserError for invalid handles, and if all degrees of freedom are held.
     Constraints(const SceneParameters &parameters,
                 const Body            &body,
                 const TimeAxis        &axis,
                 const BodyInputs      &inputs);
 
-    /// Throws UserError for a static scene in which the body could move rigidly, in a step of the axis.
+    /// Throws UserError for a static scene in which the body can move rigidly in a step of the
+    /// axis.
     void
     check(const SceneParameters &parameters, const Body &body, const TimeAxis &axis);
 
-    /// Let `change` change which nodes handles hold. Throws UserError, with nothing changed, for what
-    /// would hold everything or, in statics, leave the body free to move rigidly. All processes must
-    /// call this.
+    /// Let `change` alter which nodes handles hold. Throws UserError, with nothing changed, if that
+    /// holds all degrees of freedom or, in statics, leaves the body free to move rigidly. All
+    /// processes must call this.
     void
     change_handles(const std::function<void(Handles &)> &change,
                    const SceneParameters                &parameters,
                    const Body                           &body);
 
-    /// Let handles with a time hold as they do in a step that begins at this time [s]. Returns whether
-    /// that changes what is held. All processes must call this.
+    /// Let handles with From or Until hold as in a step that begins at this time [s]. Returns
+    /// whether that changes the held nodes. All processes must call this.
     bool
     follow_time(double time, const SceneParameters &parameters, const Body &body);
 
@@ -89,13 +90,13 @@ namespace Exemplar
     std::vector<std::string>
     describe_single_nodes(const Body &body) const;
 
-    /// Handles that pull at the one node that a box or a sphere happens to hold, in sentences with the
-    /// remedy. All processes must call this.
+    /// Sentences, with a remedy, on moving handles whose box or sphere contains just one node. All
+    /// processes must call this.
     std::vector<std::string>
     describe_pulled_nodes(const SceneParameters &parameters, const Body &body) const;
 
     Handles                                           handles;
-    const std::optional<StaticallyDeterminateSupport> support; ///< of an interpolation
+    const std::optional<StaticallyDeterminateSupport> support; ///< if an interpolation
     FreeDofs                                          free_dofs;
 
   private:
@@ -113,33 +114,32 @@ namespace Exemplar
              const TimeAxis        &axis,
              const BodyInputs      &inputs);
 
-    ExamplePoses   poses;
-    ExampleWeights weights;
-    std::vector<ExampleStart>
-        starts; ///< of the last step of the scene, with Solver/Starts = examples
+    ExamplePoses              poses;
+    ExampleWeights            weights;
+    std::vector<ExampleStart> starts; ///< of the scene's last step, with Solver/Starts = examples
   };
 
   /// The law of each cell: those with a yield stress are plastic. All processes must call this.
   LawsOfCells
   laws_of_cells(const SceneParameters &parameters, const Body &body);
 
-  /// Makes a term of one's own. It is called for each potential that needs one: that of the steps, and
-  /// that of a Laboratory, whose term gets what the other remembers by PotentialTerm::save() and load().
+  /// Makes a user-defined term. Called for each potential: that of the steps, and that of a
+  /// Laboratory, which copies the state of the term by PotentialTerm::save() and load().
   using MakeTerm = std::function<std::unique_ptr<PotentialTerm>()>;
 
-  /// A term that a program has added.
+  /// A term added by a program.
   struct OwnTerm
   {
     MakeTerm             make;
-    const PotentialTerm *term; ///< that of the steps
+    const PotentialTerm *term; ///< the one in the potential of the steps
   };
 
-  /// What acts on the body beside its elasticity.
+  /// Loads and inertia of the body.
   struct Actions
   {
     Actions(const SceneParameters &parameters, const Body &body, const BodyInputs &inputs);
 
-    /// The terms of the potential that stand for them, by this time integrator, which is null unless the
+    /// The terms of the potential for these, with this time integrator, which is null unless the
     /// scene is dynamic.
     PotentialTerms
     make_terms(const Body &body, const TimeIntegrator *integrator_of_terms) const;
@@ -148,19 +148,20 @@ namespace Exemplar
     const std::unique_ptr<Mass>           mass;             ///< in dynamic scenes
     const std::unique_ptr<TimeIntegrator> integrator;       ///< in dynamic scenes
     PointStresses                         initial_stresses; ///< empty unless the body is balanced
-    std::vector<OwnTerm>                  own_terms;        ///< first come first
-    std::vector<std::string>              warnings;         ///< of all but these
+    std::vector<OwnTerm>                  own_terms;        ///< in order of addition
+    std::vector<std::string>              warnings;         ///< of all but own_terms
 
-    /// Whether the energy bound of doc/dynamics.md, Eq. (12), holds where handles rest.
+    /// Whether the energy bound of doc/dynamics.md, Eq. (12), holds while handles rest.
     const bool energy_is_bounded;
   };
 
-  /// Whether the matrix keeps outer products apart at first: where multigrid is sure to be chosen.
+  /// Whether matrix and outer products are assembled apart at first: if multigrid is certain to be
+  /// chosen.
   bool
   is_assembled_in_parts(const SolverParameters &solver, const Exchange &exchange);
 
-  /// The bordered system of a step with the linear solver that a scene asks for or, if it leaves
-  /// the choice, the faster one; the potential's pattern becomes one for it.
+  /// The bordered system of a step with the linear solver of the scene or, if that is automatic,
+  /// the faster one; adapts the potential's sparsity pattern to it.
   std::unique_ptr<BorderedSystem>
   make_bordered_system(const SolverParameters &solver, IncrementalPotential &potential);
 } // namespace Exemplar

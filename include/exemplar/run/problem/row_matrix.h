@@ -10,20 +10,20 @@ namespace Exemplar
 {
   class Problem;
 
-  /// A sparse matrix by rows, of columns that ascend: of n degrees of freedom, held ones included.
+  /// A sparse matrix by rows, columns ascending, of n degrees of freedom, held ones included.
   struct RowMatrix
   {
-    std::vector<int>    row_start; ///< n + 1
+    std::vector<int>    row_start; ///< size n + 1
     std::vector<int>    column;
     std::vector<double> value;
   };
 
-  /// All rows of symmetric matrices of which a SymmetricPattern has the lower triangle. The columns are
-  /// found once for each version of the pattern.
+  /// Expands symmetric matrices from the lower triangle in a SymmetricPattern to full rows. The
+  /// columns are found once for each version of the pattern.
   class SymmetricRows
   {
   public:
-    /// `values` are those of the lower triangle, in the order of the pattern.
+    /// The rows; `values` are those of the lower triangle, in the order of the pattern.
     RowMatrix
     with(const SymmetricPattern &lower, const std::vector<double> &values);
 
@@ -31,12 +31,12 @@ namespace Exemplar
     void
     follow(const SymmetricPattern &lower);
 
-    RowMatrix        pattern; ///< of this version, without values
+    RowMatrix        pattern; ///< of this version; values unset
     unsigned int     version = 0;
-    std::vector<int> source; ///< of the rows' values among those of the triangle
+    std::vector<int> source; ///< index in the triangle of each value of the rows
   };
 
-  /// The mass matrix [kg] of a problem, as its scene has it; in a static scene, too.
+  /// The mass matrix [kg] of a problem, as the scene defines it, also for static scenes.
   RowMatrix
   mass_matrix(const Problem &problem);
 } // namespace Exemplar

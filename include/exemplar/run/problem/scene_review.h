@@ -9,13 +9,14 @@
 
 namespace Exemplar
 {
-  /// Warnings of what a scene says that is allowed and may be meant, but hardly is: constants beyond
-  /// what the elements can do, tolerances that accept anything, weights beyond the examples, motions
-  /// of components that are not held.
+  /// Warnings of settings that are valid but hardly intended: constants beyond the range of the
+  /// elements, very loose tolerances, weights without examples, motions of components that are not
+  /// held.
   std::vector<std::string>
   scene_warnings(const Problem &problem);
 
-  /// What looks wrong in the present pose of an example, see describe_pose(); empty if nothing does.
+  /// Sentences on flaws of the present pose of an example, see describe_pose(); empty if there are
+  /// none.
   std::string
   pose_warning(const Problem &problem, unsigned int example);
 } // namespace Exemplar

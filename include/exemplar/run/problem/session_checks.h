@@ -10,8 +10,8 @@ namespace Exemplar
 {
   class Problem;
 
-  /// Throws UserError, with the line of `file`, for an event of a session that the problem would refuse when it comes
-  /// to it, so that a run of hours does not end there. The problem is as before.
+  /// Throws UserError, with the line of `file`, if the problem would refuse an event of a session,
+  /// so that a long run does not fail there. The problem is left as before.
   void
   check_session(Problem &problem, const Session &session, const std::string &file);
 } // namespace Exemplar

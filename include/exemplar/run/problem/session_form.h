@@ -10,16 +10,16 @@
 
 namespace Exemplar
 {
-  /// What messages call an event: with its line, if it has one, of this file, its step, what is done and the name.
+  /// Title of an event in messages: its line in `file`, if any, its step, its kind and name.
   std::string
   title_of(const SessionEvent &event, const std::string &file = "");
 
-  /// Throws UserError, calling it `title`, for an event that no body of so many nodes would take, whatever is held:
-  /// an unknown deed, other nodes and numbers than it needs, nodes that are not there, springs that push.
+  /// Throws UserError, with `title`, for an event that is invalid for any body of `n_nodes` nodes:
+  /// of unknown kind, with wrong counts of nodes and numbers, missing nodes, springs that push.
   void
   check_form(const SessionEvent &event, unsigned int n_nodes, const std::string &title);
 
-  /// The constant that an event gives all cells; nothing if it is another one.
+  /// The constant of all cells that an event changes; nothing for other kinds of events.
   std::optional<ChangedConstants>
   constants_of(const SessionEvent &event);
 } // namespace Exemplar

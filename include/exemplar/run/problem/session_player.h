@@ -13,8 +13,8 @@ namespace Exemplar
 {
   class Problem;
 
-  /// Does to a problem what a hand did: while it is dragged, and when a recorded session is played
-  /// again. Both do the same between the same steps, so that both end in the same bytes.
+  /// Applies interactive events to a problem, both live and when a recorded session is replayed.
+  /// Both act between the same steps, so that both end in the same bytes.
   ///
   /// | what | name | nodes | numbers |
   /// |---|---|---|---|
@@ -25,39 +25,40 @@ namespace Exemplar
   /// | shift | of a handle that was held so | | displacement of all of it since then [m] |
   /// | let go | of the handle | | |
   /// | young, poisson, density, importance | | | 1, for all cells |
-  /// | weights | | | one a weight: they are held; none: they are found again |
+  /// | weights | | | one a weight: they are held; none: they are unknown again |
   /// | gravity | | | 3 [m/s^2] |
   /// | damping | | | mass damping [1/s], stiffness damping [s] |
-  /// | forget | | | a step had failed: what the solver remembers counts no more |
+  /// | forget | | | a step had failed: the solver's memory is cleared |
   class SessionPlayer
   {
   public:
-    /// Adds a term of springs to the problem, which must outlive this. Throws UserError for an interpolation, and where
-    /// several processes share the body.
+    /// Adds a term of springs to the problem, which must outlive this. Throws UserError for an
+    /// interpolation, and if several processes share the body.
     explicit SessionPlayer(Problem &problem);
 
-    /// Do it now. Throws UserError, with nothing changed, for what the problem refuses, and for an event that is none.
+    /// Apply an event now. Throws UserError, with nothing changed, for invalid events and those
+    /// that the problem refuses.
     void
     apply(const SessionEvent &event);
 
-    /// From now on begin_step() does what this session of a file says. Throws as check_session().
+    /// Let begin_step() replay this session, read from `file`. Throws as check_session().
     void
     play(Session recorded, std::string file);
 
-    /// Do what was done before the problem's next step.
+    /// Apply the recorded events before the problem's next step.
     void
     begin_step();
 
-    /// The problem is about to go on from a state after this step: do all that was done until there.
-    /// Throws UserError for a step before that.
+    /// Apply the recorded events up to this step, after which the problem is to be resumed. Throws
+    /// UserError for a step before those applied.
     void
     catch_up(unsigned int step);
 
-    /// The same with all that these events lead to. Throws as apply().
+    /// Apply all of these events. Throws as apply().
     void
     catch_up(const LastingEvents &events);
 
-    /// Those that pull now.
+    /// The springs that pull at present.
     const Springs &
     get_springs() const
     {
@@ -95,7 +96,7 @@ namespace Exemplar
     void
     forget(const SessionEvent &event);
 
-    /// A handle's nodes when it was held [m], and how far all were shifted since then.
+    /// Displacements of a handle's nodes when it was held [m], and the shift of all since then.
     struct Place
     {
       std::vector<dealii::Tensor<1, 3>> displacements;
@@ -106,8 +107,8 @@ namespace Exemplar
     const std::shared_ptr<Springs>                springs;
     std::map<std::string, std::shared_ptr<Place>> places; ///< by names of handles
     Session                                       recorded;
-    std::string                                   file;         ///< of `recorded`, for messages
-    std::size_t                                   n_played = 0; ///< of `recorded`
+    std::string file;         ///< name of the session's file, for messages
+    std::size_t n_played = 0; ///< number of events applied
   };
 } // namespace Exemplar
 

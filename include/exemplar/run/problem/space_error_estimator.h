@@ -9,10 +9,10 @@
 
 namespace Exemplar
 {
-  /// Estimates errors in space by a quadratic correction, doc/choosing.md: from the state of the linear
-  /// elements to that of quadratic ones under the same forces, in one Newton step where all is
-  /// linear. Where the strain allows they have the mean dilatation of each cell. What the linear
-  /// elements leave of their own equations is taken out before.
+  /// Estimates the discretisation error by a quadratic correction, doc/choosing.md: from the state
+  /// of linear elements to that of quadratic ones under the same forces, by one Newton step if the
+  /// problem is linear. Quadratic elements have a mean dilatation in each cell if the strain
+  /// allows. The residual of the linear elements' own equations is subtracted first.
   class SpaceErrorEstimator
   {
   public:
@@ -21,32 +21,33 @@ namespace Exemplar
 
     ~SpaceErrorEstimator();
 
-    /// At the problem's state, which does not change. The first call makes the quadratic
-    /// problem, which takes about ten times the memory of the linear one.
+    /// Estimate at the problem's state, which is left unchanged. The first call makes the quadratic
+    /// problem, with about ten times the memory of the linear one.
     SpaceError
     estimate();
 
   private:
     struct Correction;
 
-    /// Newton's method from the linear state, with the forces that it has there. `linear` is the
+    /// Newton's method from the linear state, under the forces at that state. `linear` is the
     /// evaluation of the linear elements without inertia.
     Correction
     correct(const Evaluation &linear);
 
-    /// The quadratic problem at the linear state, under the loads and the inertia that hold that in
-    /// equilibrium.
+    /// The quadratic problem at the linear state, under the loads and the inertia with which that
+    /// is in equilibrium.
     Correction
     take_over(const Evaluation &linear);
 
     Evaluation
     evaluate(const Correction &correction);
 
-    /// Throws SolverFailure if no tangent is definite.
+    /// Newton direction. Throws SolverFailure if no tangent is definite.
     BorderedVector
     direction(const Correction &correction);
 
-    /// A step that lessens the potential. Returns whether a further one would tell more.
+    /// Make a step that decreases the potential. Returns whether a further one would improve the
+    /// estimate.
     bool
     improve(Correction &correction);
 

@@ -9,18 +9,18 @@
 
 namespace Exemplar
 {
-  /// What looks wrong in the states of a run, for warnings at its end.
+  /// Collects flaws of a run's states, for warnings at its end.
   class StateReview
   {
   public:
     /// `problem` must outlive this.
     explicit StateReview(const Problem &problem);
 
-    /// A step has been accepted.
+    /// Review the state after an accepted step.
     void
     add_step(const SolveReport &report);
 
-    /// In the order of their weight. Elements are named by the numbers of the mesh file.
+    /// Warnings in order of severity. Elements are named by the numbers of the mesh file.
     std::vector<std::string>
     warnings() const;
 
@@ -35,11 +35,11 @@ namespace Exemplar
 
     const Problem &problem;
     Inversions     inversions;
-    unsigned int   first_raised = 0; ///< the step whose loads were raised within it; 0: none
+    unsigned int   first_raised = 0; ///< first step with loads raised in parts; 0: none
   };
 
-  /// At the end of a scene, a warning where an example may have been missed, see missed_example();
-  /// else none. All processes must call this.
+  /// At the end of a scene, a warning if missed_example() finds one; else none. All processes must
+  /// call this.
   std::vector<std::string>
   missed_example_warnings(Problem &problem);
 } // namespace Exemplar

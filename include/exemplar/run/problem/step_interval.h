@@ -6,28 +6,28 @@ namespace Exemplar
 {
   class Problem;
 
-  /// When a step ends, and how long it is [s]; a step of no length solves a static scene once more.
+  /// End and length of a step [s]; one of zero length solves a static scene again.
   struct StepInterval
   {
     double end, size;
   };
 
-  /// The step that follows a problem's state: that of the time axis if the state is at one of its times,
-  /// else one of the same length from where the state is. Dynamics go on beyond Time/End; what has
-  /// reached t = 1 elsewhere is solved there once more.
+  /// The step after a problem's state: that of the time axis if the state is at one of its times,
+  /// else one of the same length from the state's time. Dynamics continue beyond Time/End; other
+  /// scenes that have reached t = 1 are solved there again.
   StepInterval
   next_step(const Problem &problem);
 
-  /// A step of this length [s]. Throws UserError unless it is a number above 0 that leads, in a scene
-  /// that is not dynamic, to t = 1 at most.
+  /// A step of this length [s]. Throws UserError unless it is positive and, in a scene that is not
+  /// dynamic, ends at t = 1 at most.
   StepInterval
   step_of(const Problem &problem, double size);
 
-  /// The next step, or a shorter one that ends at this time [s], which is after the state's.
+  /// The next step, or a shorter one that ends at this time [s], which must be after the state's.
   StepInterval
   step_towards(const Problem &problem, double time);
 
-  /// Whether a problem's state is at this time [s], or after it, to a billionth of a step.
+  /// Whether a problem's state has reached this time [s], to a billionth of a step.
   bool
   has_reached(const Problem &problem, double time);
 
@@ -35,8 +35,8 @@ namespace Exemplar
   double
   end_of_scene(const Problem &problem);
 
-  /// Throws UserError if prescribed weights, which are looked at in the times of the axis alone when a
-  /// problem is made, do not sum to one at the end of a step.
+  /// Throws UserError if prescribed weights do not sum to one at the end of a step; when a problem
+  /// is made, they are checked at the times of the axis alone.
   void
   check_weights(const Problem &problem, const StepInterval &step);
 } // namespace Exemplar

@@ -10,23 +10,24 @@
 
 namespace Exemplar
 {
-  /// What gravity does to a body that is held, estimated without solving anything.
+  /// Estimated effect of gravity on a held body, without solving anything.
   struct WeightEstimate
   {
-    double sag;    ///< how far its furthest part moves [m]
-    double strain; ///< rho g / E times the distance of that part from what is held
+    double sag;    ///< displacement of its furthest part [m]
+    double strain; ///< rho g / E times the distance of that part from the held nodes
   };
 
-  /// In statics, and in dynamics no further than it can fall in the time of the run. From the distance d
-  /// of a node from the nearest handle's bounding box, d' of it across gravity, and the thickness t:
-  /// rho g / E (d^2 / 2 + 3/2 d'^4 / t^2), as a bar is stretched and a beam bends. Exact for both;
-  /// doc/output.md says how near it comes. Zero where nothing is held. All processes must call this.
+  /// Estimate for statics, and in dynamics at most the free fall within the run. With the distance
+  /// d of a node from the nearest handle's bounding box, its part d' across gravity, and the
+  /// thickness t: rho g / E (d^2 / 2 + 3/2 d'^4 / t^2), for a stretched bar and a bent beam. Exact
+  /// for both; doc/output.md tells its accuracy. Zero if nothing is held. All processes must call
+  /// this.
   WeightEstimate
   estimate_weight(const Problem &problem, const BodyMeasures &measures);
 
-  /// Warnings of what looks like a wrong unit: the size of the body, its density and stiffness, what
-  /// gravity and forces do to it, its times, and degrees in formulas. All processes that share the
-  /// body must call this.
+  /// Warnings of numbers that suggest a wrong unit: the size of the body, its density and
+  /// stiffness, the effects of gravity and forces, times, and degrees in formulas. All processes
+  /// that share the body must call this.
   std::vector<std::string>
   unit_warnings(const Problem &problem);
 } // namespace Exemplar

@@ -10,17 +10,16 @@
 
 namespace Exemplar
 {
-  /// The texts in the value of a key that name its input files: of poses and maps, of selections, of what a
-  /// motion follows. A pattern is one of them.
+  /// The names of input files, or patterns of names, in the value of a key: of poses and maps, of
+  /// selections, of caches and paths of motions.
   std::vector<std::string>
   file_names(const DeclaredKey &key);
 
-  /// The files that one of file_names() stands for, also if they are not there.
+  /// The files that match one of file_names(), or the name itself if none exists.
   std::vector<std::filesystem::path>
   files_of_name(const DeclaredKey &key, const std::string &name);
 
-  /// Append the input files that the value of a key names, also those that are not there: of poses and
-  /// maps, of selections, of what a motion follows.
+  /// Append the input files that the value of a key names, existing or not; see file_names().
   void
   append_files(const DeclaredKey &key, std::vector<std::filesystem::path> &files);
 } // namespace Exemplar

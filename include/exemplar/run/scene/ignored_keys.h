@@ -10,8 +10,8 @@
 
 namespace Exemplar
 {
-  /// A warning of each key that `given` sets and that a scene such as this does not look at, with
-  /// its place and what to do.
+  /// A warning for each key in `given` that has no effect in this scene, with its place and a
+  /// remedy.
   std::vector<std::string>
   warn_of_ignored_keys(const SceneParameters         &scene,
                        const KeyTable                &keys,

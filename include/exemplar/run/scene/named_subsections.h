@@ -6,15 +6,15 @@
 
 namespace Exemplar
 {
-  /// Throws UserError if two of the names that Names of a section lists are the same, or if one
-  /// holds a sign that means something else in scenes.
+  /// Throws UserError if two of the names that Names of a section lists are equal, or if one holds
+  /// a character with another meaning in scenes.
   void
   check_names(const std::vector<std::string> &names, const std::string &section);
 
-  /// Of `named`, which are all in subsections of sections, take out those in a subsection of `section` that
-  /// is not among the names that its Names lists, and return a warning of each such subsection. Throws
-  /// UnknownKey for one that `overrides` set, where `others` do not set Names at all, and for one that may be
-  /// a listed name without a subsection, misspelt.
+  /// Remove from `named`, assignments in named subsections, those in subsections of `section` that
+  /// its Names does not list, and return a warning for each such subsection. Throws UnknownKey if
+  /// `overrides` set one of them while `others` do not set Names, and if one may be a misspelling
+  /// of a listed name that has no subsection.
   std::vector<std::string>
   drop_unlisted(std::vector<Assignment>        &named,
                 const std::vector<Assignment>  &others,

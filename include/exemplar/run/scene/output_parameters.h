@@ -13,7 +13,7 @@ namespace Exemplar
   enum class FinalTetrahedra
   {
     linear,   ///< those of the mesh file
-    quadratic ///< the same with 10 nodes
+    quadratic ///< with 10 nodes each
   };
 
   /// When the error in space is estimated.
@@ -21,7 +21,7 @@ namespace Exemplar
   {
     never,
     at_end,
-    in_frames ///< and at the end
+    in_frames ///< in frames and at the end
   };
 
   /// Subsection Output.

@@ -12,8 +12,8 @@
 
 namespace Exemplar
 {
-  /// A scene as text. It fills SceneParameters, completed and checked, and knows the text of
-  /// each value in force.
+  /// A scene as text, and the SceneParameters of it, completed and checked. Knows the text of each
+  /// value in force.
   class SceneFile
   {
   public:
@@ -21,13 +21,13 @@ namespace Exemplar
     /// UserError.
     SceneFile(const std::filesystem::path &file, const std::vector<std::string> &overrides);
 
-    /// The same from the text of a scene, as if `file` contained it. If `file` is empty, names
-    /// of input files stay as they are.
+    /// Read the text of a scene as if `file` contained it. If `file` is empty, names of input files
+    /// are not resolved.
     SceneFile(const std::filesystem::path    &file,
               const std::string              &text,
               const std::vector<std::string> &overrides);
 
-    /// The same, with overrides that know their places.
+    /// Read the text of a scene with overrides that know their places.
     SceneFile(const std::filesystem::path   &file,
               const std::string             &text,
               const std::vector<Assignment> &overrides);
@@ -37,28 +37,28 @@ namespace Exemplar
     operator=(const SceneFile &)
         = delete;
 
-    /// The file of the scene, as it was given.
+    /// The file of the scene, as given.
     const std::filesystem::path &
     get_path() const
     {
       return file;
     }
 
-    /// Byte for byte.
+    /// The text of the scene, byte for byte.
     const std::string &
     get_text() const
     {
       return text;
     }
 
-    /// What the text and the overrides say, with the defaults of all else.
+    /// The parameters by text and overrides, with defaults elsewhere.
     const CompleteScene &
     get_parameters() const
     {
       return *complete;
     }
 
-    /// All keys with the values in force; input files are absolute.
+    /// All keys with the values in force; input files have absolute paths.
     std::vector<DeclaredKey>
     get_keys() const;
 
@@ -66,7 +66,7 @@ namespace Exemplar
     std::vector<std::filesystem::path>
     input_files() const;
 
-    /// All files that the scene names, also those that it has no use for.
+    /// All files that the scene names, including those it does not use.
     std::vector<std::filesystem::path>
     named_files() const;
 
@@ -77,7 +77,7 @@ namespace Exemplar
   private:
     SceneFile() = default;
 
-    /// From which input files are named; empty: they stay as they are.
+    /// The folder to which names of input files are relative; empty: they are not resolved.
     std::filesystem::path
     directory() const;
 
@@ -87,21 +87,21 @@ namespace Exemplar
     void
     declare_named_subsections(const std::vector<Assignment> &assignments);
 
-    /// The line that should set Names says better what is wrong than the subsections that Names lacks.
+    /// A misspelt key Names is reported rather than the subsections that it would have listed.
     void
     refuse_misspelt_names(const std::vector<Assignment> &unknown);
 
     void
     make_selections_absolute();
 
-    /// Take over as text what an interpolation has decided. Throws UserError where
+    /// Set the text of values that an interpolation determines. Throws UserError where
     /// `assignments` have set another value, which is in `given`.
     void
     set_interpolation(const std::vector<Assignment> &assignments);
 
     const std::filesystem::path  file;
     const std::string            text;
-    SceneParameters              parameters; ///< as the text says, where `auto` stays
+    SceneParameters              parameters; ///< as in the text, `auto` included
     std::optional<CompleteScene> complete;
     KeyTable                     keys; ///< bound to `parameters` and the names
     std::vector<std::string>     handle_names;

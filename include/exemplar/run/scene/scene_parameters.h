@@ -19,7 +19,7 @@
 
 namespace Exemplar
 {
-  /// What is to be solved.
+  /// The problem to be solved.
   enum class SceneKind
   {
     interpolation,
@@ -27,11 +27,10 @@ namespace Exemplar
     dynamic
   };
 
-  /// What a scene is, in numbers and formulas. A SceneFile fills it from text; a program may
-  /// as well fill it by hand.
+  /// The parameters of a scene, filled by a SceneFile from text or by a program.
   struct SceneParameters
   {
-    std::string                   name  = "scene"; ///< stands for the scene in messages
+    std::string                   name  = "scene"; ///< name of the scene in messages
     SceneKind                     scene = SceneKind::dynamic;
     MeshParameters                mesh;
     MaterialParameters            material;
@@ -43,19 +42,19 @@ namespace Exemplar
     TimeParameters                time;
     SolverParameters              solver;
     OutputParameters              output;
-    std::string                   session;  ///< file of what a hand did; empty: nothing
-    std::vector<std::string>      warnings; ///< of what the text of the scene says in vain
+    std::string                   session;  ///< file of the recorded session; empty: none
+    std::vector<std::string>      warnings; ///< about text of the scene without effect
 
     /// Whether a part of the scene needs the surface of the body.
     bool
     needs_surface() const;
 
-    /// Whether something is to be read off the surface: nodes, constants, shares or motions.
+    /// Whether nodes, constants, shares or motions are read off the surface.
     bool
     reads_off_surface() const;
 
   private:
-    /// The key that does, for messages; empty: none.
+    /// The key that reads off the surface, for messages; empty: none.
     std::string
     key_read_off_surface() const;
 
@@ -78,20 +77,21 @@ namespace Exemplar
     friend class CompleteScene;
   };
 
-  /// A scene with what its kind decides: importance 1 and prescribed weights of an interpolation, and
-  /// the method and the dilatation that `automatic` stands for. All that is made of a scene takes one.
+  /// A scene with the values that its kind determines: importance 1 and prescribed weights of an
+  /// interpolation, and the method and dilatation for `automatic`. Problems are made of this type
+  /// alone.
   class CompleteScene : public SceneParameters
   {
   public:
-    /// Throws UserError for values that contradict each other, which concern several sections, or that
-    /// no pattern can tell.
+    /// Throws UserError for values that contradict each other across sections, or that no pattern
+    /// can exclude.
     CompleteScene(SceneParameters scene);
 
   private:
     void
     complete();
 
-    /// In place of the strain. Throws UserError for a model that has no fibres.
+    /// `law`, the law with fibres, if it may replace the strain; else throws UserError.
     CellLaw
     law_of_grain(CellLaw law) const;
 

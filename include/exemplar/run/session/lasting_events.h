@@ -10,21 +10,23 @@
 
 namespace Exemplar
 {
-  /// What events of a session lead to without the steps between them, in as few events as there are springs,
-  /// handles and numbers that they speak of. A hand of half an hour moves some springs 60,000 times.
+  /// The shortest list of events with the same outcome as those of a session, the steps between
+  /// them left out: at most two for each spring, handle or number. In half an hour a hand moves
+  /// some springs 60,000 times.
   class LastingEvents
   {
   public:
-    /// In the order in which it was done.
+    /// Add an event; in chronological order.
     void
     add(const SessionEvent &event);
 
-    /// These lead a body to where all that was added would, but for what the solver remembers.
+    /// Events that bring a body to the same state as all added ones, but for the solver's memory.
     Session
     get() const;
 
   private:
-    /// Of a spring, a handle or a number: the last event that makes it anew, and those after it.
+    /// A spring, a handle or a number: the event that last created or reset it, and the last ones
+    /// after it.
     struct Subject
     {
       std::optional<SessionEvent> made, moved, ended;

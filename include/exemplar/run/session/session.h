@@ -8,42 +8,42 @@
 
 namespace Exemplar
 {
-  /// One thing that a hand did to a body between two steps. What nodes and numbers mean depends on
-  /// `what`; SessionPlayer knows it.
+  /// An interactive action on a body between two steps. The meaning of nodes and numbers depends on
+  /// `what`; see SessionPlayer.
   struct SessionEvent
   {
-    unsigned int              step; ///< before which it was done: that which ends with this number
+    unsigned int              step; ///< number of the step that follows the event
     std::string               what; ///< "grab", "move", ...
     std::string               name; ///< of a spring or a handle; may be empty
     std::vector<unsigned int> nodes;
     std::vector<double>       numbers;
-    unsigned int              line = 0; ///< of the file from which it was read; 0: none
+    unsigned int              line = 0; ///< of the session file; 0: none
   };
 
-  /// In the order in which it was done.
+  /// Events in chronological order.
   using Session = std::vector<SessionEvent>;
 
-  /// A line of a session file: STEP | WHAT | NAME | NODES | NUMBERS, the numbers with all their digits.
+  /// A line of a session file: STEP | WHAT | NAME | NODES | NUMBERS, numbers in full precision.
   std::string
   line_of(const SessionEvent &event);
 
-  /// The opposite. Throws UserError, with the place of the line, for what is none.
+  /// The inverse of line_of(). Throws UserError, with the place of the line, if it cannot be
+  /// parsed.
   SessionEvent
   event_of_line(const std::string &line, const std::string &place);
 
-  /// With what a session file begins.
+  /// The first lines of a session file.
   std::string
   head_of_session();
 
-  /// What a session file holds.
+  /// Contents of a session file.
   struct RecordedSession
   {
-    Session events;
-    std::vector<std::string>
-        warnings; ///< of a last line that was not written whole, which is left out
+    Session                  events;
+    std::vector<std::string> warnings; ///< of an incomplete last line, which is left out
   };
 
-  /// Throws UserError, with the line, for what is no session, or for steps that do not ascend.
+  /// Throws UserError, with the line, for a file that is no session, or whose steps do not ascend.
   RecordedSession
   read_session(const std::filesystem::path &file);
 } // namespace Exemplar
