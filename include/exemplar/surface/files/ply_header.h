@@ -28,7 +28,7 @@ namespace Exemplar
   {
     std::string            name;
     PlyType                type;
-    std::optional<PlyType> count; ///< of a list: the type of its length
+    std::optional<PlyType> count; ///< type of a list's length; none for a single number
   };
 
   /// A kind of elements, vertices for instance, and how many there are.

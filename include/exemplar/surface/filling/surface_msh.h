@@ -16,8 +16,8 @@ namespace Exemplar
   Materials
   materials_by_regions(const TetrahedralMesh &mesh, const std::vector<std::string> &region_names);
 
-  /// As a file: the groups of the outer triangles become physical surfaces, by the same rule, the
-  /// materials physical volumes.
+  /// The mesh as a .msh file: groups of the outer triangles become physical surfaces, named by the
+  /// rule of names_of_regions(), and materials become physical volumes.
   MshFile
   make_surface_msh(const TetrahedralMesh          &mesh,
                    const std::vector<std::string> &group_names,

@@ -19,7 +19,7 @@ namespace Exemplar
   double
   fold_energy(const Matrix3<double> &F, double eps);
 
-  /// Its derivative by F, for a finite energy.
+  /// The derivative of fold_energy() by F (first Piola-Kirchhoff stress), for a finite energy.
   Matrix3<double>
   fold_stress(const Matrix3<double> &F, double eps);
 
