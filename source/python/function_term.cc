@@ -143,7 +143,7 @@ namespace Exemplar::Python
       }
 
     private:
-      /// Ask for the answer at a state, whose couplings join those that are known.
+      /// Gets the answer at a state, and adds its couplings to the known ones.
       void
       accept(const State &state)
       {
@@ -156,8 +156,8 @@ namespace Exemplar::Python
         is_new = pairs.size() > n_before;
       }
 
-      /// The last answers are kept: that of the state, so that a step that fails by the function can be
-      /// taken back without it, and that of the place that was asked for last.
+      /// The answer at a place. Two are kept: that of the state, so that a step in which the
+      /// function fails can be taken back without it, and that of the last place.
       const FunctionAnswer &
       ask(const Vector &positions, const double at_time)
       {
@@ -183,7 +183,7 @@ namespace Exemplar::Python
       const FreeDofs                                 *free_dofs = nullptr; ///< since attach()
       double                                          time;
       FunctionAnswer                                  accepted, last;
-      std::set<std::pair<unsigned int, unsigned int>> pairs; ///< of nodes, that are coupled
+      std::set<std::pair<unsigned int, unsigned int>> pairs; ///< pairs of coupled nodes
       bool                                            is_new = false;
     };
   } // namespace

@@ -35,7 +35,7 @@ namespace Exemplar::Python
       }
     }
 
-    /// What Python's own setting of an attribute does, but a method that is set is told to be called.
+    /// __setattr__ as Python's own, but setting a method raises an error that tells to call it.
     void
     set_attribute(const py::object &problem, const py::str &name, const py::object &value)
     {

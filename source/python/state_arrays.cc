@@ -9,7 +9,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// An array in memory that `owner` keeps.
+    /// A read-only array in memory that `owner` keeps.
     template <typename Number>
     py::array
     read_only_rows(const Number     *memory,
@@ -22,7 +22,7 @@ namespace Exemplar::Python
       return rows;
     }
 
-    /// An object that keeps what `pointer` shares.
+    /// A Python object that shares ownership with `pointer`.
     template <typename T>
     py::capsule
     keeper(std::shared_ptr<T> pointer)

@@ -44,7 +44,7 @@ namespace Exemplar::Python
       return file;
     }
 
-    /// The state, as a run shows it.
+    /// The frame of the state, as a run writes it.
     Frame
     frame_of(Problem &problem)
     {

@@ -13,13 +13,13 @@ namespace Exemplar::Python
   std::unique_ptr<PotentialTerm>
   make_function_term(const pybind11::object &function, std::string name, const State &state);
 
-  /// What the function of a term has returned, for the last state and when it was last called.
+  /// The answers of a term's function: that for the last state, and the last one of all.
   struct TermAnswers
   {
     const FunctionAnswer &of_state, &last;
   };
 
-  /// Of a term that make_function_term() has made.
+  /// The answers of a term that make_function_term() has made.
   TermAnswers
   answers_of(const PotentialTerm &term);
 } // namespace Exemplar::Python

@@ -9,7 +9,7 @@
 
 namespace Exemplar::Python
 {
-  /// Of a symmetric matrix, where the row is not before the column.
+  /// An entry of a symmetric matrix, in its lower triangle: row >= column.
   struct MatrixEntry
   {
     unsigned int row, column;

@@ -8,9 +8,9 @@
 
 namespace Exemplar::Python
 {
-  /// While it lives, other threads of Python run. Python kills threads that want its lock while it
-  /// ends, and C++ ends the process for that: end_all(), called first at Python's end, waits for
-  /// all such work.
+  /// Releases Python's lock while it lives, so that other threads of Python run. At its end Python
+  /// kills threads that want the lock, for which C++ ends the process: end_all(), called first
+  /// then, waits for all such work.
   class UnlockedWork
   {
   public:

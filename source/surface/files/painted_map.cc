@@ -189,8 +189,8 @@ namespace Exemplar
       std::size_t         vertex_column = none, value_column = none;
     };
 
-    /// Compares the distances from each vertex to the next, which do not depend on axes, and are
-    /// proportional to the unit.
+    /// Refuses vertices whose distances to the next are not in proportion to those of the surface:
+    /// distances do not depend on axes, and their ratio is that of the units.
     void
     check_same_vertices(const std::vector<SurfaceMesh::Vertex> &found,
                         const SurfaceMesh                      &surface,

@@ -22,7 +22,7 @@ namespace Exemplar
         "face_label" }
     };
 
-    /// The value that stands for 1: 255 for one byte, as colours are.
+    /// Factor of the values of a type: 1/255 for one byte, as colours have, else 1.
     double
     unit_of(const PlyType type)
     {

@@ -80,8 +80,8 @@ namespace Exemplar
       }
     }
 
-    /// Adds a volume for each shell that bounds a region from outside; returns the tag of the
-    /// first.
+    /// Adds a volume for each shell that bounds a region from outside, tagged by region; returns
+    /// the number of regions.
     unsigned int
     add_volumes(const TriangleSurface           &surface,
                 const std::vector<unsigned int> &shells,

@@ -23,8 +23,8 @@ namespace Exemplar
     /// Shares of the way to a pose by which the surface is opened, ascending.
     constexpr std::array<double, 4> ways{ { .25, .5, .75, 1. } };
 
-    /// Stiffness with which cells that are carried back to rest follow the surface, over their own:
-    /// greater than for a pose, as this is the body itself.
+    /// Stiffness with which cells that are carried back to rest follow the surface, over their own;
+    /// it is that large because this is the rest shape of the body, no pose of it.
     constexpr double attach_at_rest = 3000.;
 
     /// A pose, moved rigidly to where it is nearest to the surface at rest.

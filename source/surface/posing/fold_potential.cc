@@ -32,8 +32,9 @@ namespace Exemplar
       return result;
     }
 
-    /// Lower bound of the eigenvalues of a cell's Hessian in a Newton step, over the stiffness at
-    /// rest: flatter and concave modes would make the step long without making it better.
+    /// Lower bound of the eigenvalues of the energy's Hessian by F in a Newton step; those of
+    /// strains at rest are of order 1. Flatter and concave modes would make the step long without
+    /// making it better.
     constexpr double min_stiffness = 1e-3;
 
     /// Number of cells below which threads would wait for each other longer than they work.

@@ -89,7 +89,7 @@ namespace Exemplar
     std::vector<double>
     determinants_at_skin(const FoldPotential &potential, const Points &x)
     {
-      constexpr double          relevant     = 0.1; // smaller shares come from recovered derivatives
+      constexpr double          relevant     = 0.1; // smaller ones are of recovered derivatives
       const std::vector<double> determinants = potential.determinants(x);
       std::vector<double>       of_node(x.size(), std::numeric_limits<double>::infinity());
       for (std::size_t c = 0; c < determinants.size(); ++c)

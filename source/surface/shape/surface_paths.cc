@@ -80,7 +80,7 @@ namespace Exemplar
   void
   SurfacePaths::search()
   {
-    std::vector<std::size_t> begin(distances.size() + 1, 0); // beginnings of the lists of triangles at each point
+    std::vector<std::size_t> begin(distances.size() + 1, 0); // of the triangles at each point
     for (const auto &points : around)
       for (const unsigned int point : points)
         ++begin[point + 1];

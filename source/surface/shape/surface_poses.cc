@@ -139,7 +139,7 @@ namespace Exemplar
       const double before = enclosed_volume(rest), after = enclosed_volume(pose);
       const double unit              = std::pow(total_area(rest), 1.5);
       const bool   turned_inside_out = before * after < 0. && std::abs(before) > 1e-3 * unit
-                                     && std::abs(after) > 1e-3 * unit; // a flat surface encloses no volume
+                                     && std::abs(after) > 1e-3 * unit; // flat: no volume
       TriangleSurface mirrored = rest;
       for (auto &x : mirrored.vertices)
         x[0] = -x[0];

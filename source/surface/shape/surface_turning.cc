@@ -14,7 +14,7 @@ namespace Exemplar
     minority(const TriangleSurface &surface, const std::vector<TriangleSide> &sides)
     {
       const std::size_t                                       n = surface.triangles.size();
-      std::vector<std::vector<std::pair<unsigned int, bool>>> neighbours(n); // neighbour, and whether its orientation agrees
+      std::vector<std::vector<std::pair<unsigned int, bool>>> neighbours(n); // true: agrees
       for_each_edge(sides,
                     [&](const TriangleSide *const first, const TriangleSide *const last)
                     {

@@ -83,7 +83,7 @@ namespace Exemplar
     std::vector<bool> is_right = of_largest_sheets(joined(n, edges), joined(n, whole));
     while (true)
     {
-      std::map<unsigned int, std::vector<unsigned int>> next; // vertices to move, with their neighbours that are right
+      std::map<unsigned int, std::vector<unsigned int>> next; // to move, with right neighbours
       for (const auto &[a, b] : edges)
         if (is_right[a] != is_right[b])
           next[is_right[a] ? b : a].push_back(is_right[a] ? a : b);

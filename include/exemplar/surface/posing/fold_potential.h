@@ -47,8 +47,8 @@ namespace Exemplar
     std::vector<double>
     gradient(const Points &x, double eps) const;
 
-    /// The Hessian with each cell's block projected to be positive semidefinite, and without that
-    /// of `skin` [1/m^2], on block_pattern().
+    /// The Hessian with each cell's eigenvalues by F bounded from below, so that it is positive
+    /// definite, and without that of `skin` [1/m^2], on block_pattern().
     void
     assemble(const Points &x, double eps, std::vector<double> &values) const;
 
