@@ -20,7 +20,7 @@ namespace Exemplar::Python
     using Cells = std::vector<std::array<unsigned int, 4>>;
 
     /// Whether an array has real numbers. numpy would also convert complex numbers (to their real
-    /// parts), masked values, texts of digits and booleans.
+    /// parts), texts of digits and booleans.
     bool
     has_real_numbers(const py::array &array)
     {

@@ -34,8 +34,8 @@ namespace Exemplar::Python
 {
   namespace
   {
-    /// Imports numpy under the lock: pybind11 would do so when first used, and the import of a
-    /// module lets other threads run, which could then deadlock with pybind11.
+    /// Imports numpy beforehand: pybind11 would do so when first used, and the import of a module
+    /// lets other threads run, which could then deadlock with pybind11.
     void
     import_numpy()
     {

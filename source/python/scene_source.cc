@@ -179,7 +179,8 @@ namespace Exemplar::Python
       return names;
     }
 
-    /// Refuses a section of unknown name; one without keys would otherwise pass unnoticed.
+    /// Refuses a section or subsection of unknown name; one without keys would otherwise pass
+    /// unnoticed.
     void
     require_known_section(const std::vector<std::string> &path)
     {
@@ -235,8 +236,8 @@ namespace Exemplar::Python
     }
 
     /// The source of a scene given as a dictionary; `assignments` put the given poses= in place of
-    /// its own. Files are read by the program, too, for which keys are allowed that do nothing in
-    /// Python.
+    /// its own. Only here keys that do nothing in Python cause warnings: files are read by the
+    /// program, too.
     SceneSource
     source_of_dictionary(const py::dict                &scene,
                          const std::vector<Assignment> &assignments,

@@ -15,8 +15,8 @@ namespace Exemplar::Live
   class KeptInputs
   {
   public:
-    /// Looks at the files before they are read. Throws UserError for one that is no regular file, as it cannot be read
-    /// again; one that is missing is left to who reads it.
+    /// Notes names and contents of the files, before they are read. Throws UserError for one that
+    /// is no regular file, as it cannot be read again; a missing file is left to its reader.
     explicit KeptInputs(const SceneFile &scene);
 
     /// Copies them to inputs/ in a directory, each into a folder that is named by the content, so that later copies
@@ -27,17 +27,17 @@ namespace Exemplar::Live
     copy_to(const std::filesystem::path &directory, const MshFile &mesh) const;
 
   private:
-    /// What a key calls one file or a sequence of them.
+    /// A key of the scene that names a file or a sequence of files.
     struct Named
     {
       std::string                        key; ///< its path
       std::string                        name;
       std::vector<std::filesystem::path> files;
-      std::string                        digest; ///< of all of them
+      std::string                        digest; ///< digest of all files
     };
 
     std::vector<DeclaredKey> keys;
-    std::vector<Named>       all; ///< that are there
+    std::vector<Named>       all; ///< keys whose files exist
   };
 } // namespace Exemplar::Live
 
