@@ -124,7 +124,7 @@ namespace Exemplar::Live
   Audience::show(const Bytes &frame)
   {
     newest = frame;
-    for (const auto &viewer : std::set<std::shared_ptr<Viewer>>(viewers)) // a viewer may leave meanwhile
+    for (const auto &viewer : std::set<std::shared_ptr<Viewer>>(viewers)) // a copy: one may leave
       viewer->send_frame(frame);
   }
 

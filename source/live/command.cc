@@ -87,8 +87,7 @@ namespace Exemplar::Live
       const auto word = value.get<std::string>();
       if (word.empty() || word.find('|') != std::string::npos
           || find_unprintable(word) != std::string::npos || word.find('\t') != std::string::npos
-          || word
-                 != trim(word)) // session files trim words between |
+          || word != trim(word)) // session files trim words between |
         throw std::invalid_argument(std::string(key)
                                     + " is empty, begins or ends with a blank, or has a | or what "
                                       "is no text");

@@ -113,7 +113,8 @@ namespace Exemplar::Live
       return surface;
     }
 
-    /// Vertices of a surface among nodes that are given as ranges, as summary.json has them: "0-3 7".
+    /// Vertices of a surface among nodes that are given as ranges, as summary.json has them: "0-3
+    /// 7".
     Json
     vertices_in(const std::string &ranges, const BodySurface &surface)
     {
@@ -229,7 +230,7 @@ namespace Exemplar::Live
       return run;
     }
 
-    /// A script element with data, base64 or text, under an id by which the page finds it.
+    /// A script element that holds bytes in base64, under an id by which the page finds it.
     std::string
     element(const std::string &name, const std::size_t i, const std::string &bytes)
     {

@@ -10,7 +10,8 @@ namespace Exemplar::Live
 {
   namespace
   {
-    /// The stiffness of a spring of strength 1, over Young's modulus times the diameter of the body.
+    /// The stiffness of a spring of strength 1, over Young's modulus times the diameter of the
+    /// body.
     constexpr double relative_stiffness = 0.02;
 
     /// Radius of the patch that a hand takes hold of, over the diameter of the body.

@@ -77,8 +77,8 @@ Exit status:
       app.footer(footer("live prm/live/cat.prm --record session"));
     }
 
-    /// Overrides with defaults before them: steps at the rate of displays, a solver that never
-    /// waits for a factor, and a scheme for motions that are not smooth.
+    /// Overrides, completed by defaults for keys that they do not have: a time step of 1/60 s,
+    /// factorizations in the background, and a prediction for motions that are not smooth.
     std::vector<std::string>
     with_defaults(std::vector<std::string> overrides)
     {

@@ -20,8 +20,7 @@ namespace Exemplar::Live
 
   namespace
   {
-    constexpr std::size_t max_bytes = std::size_t(1)
-                                      << 32; ///< greatest size of an array: more is no frame of ours
+    constexpr std::size_t max_bytes = std::size_t(1) << 32; ///< limit of an array's size
 
     [[noreturn]] void
     refuse(const fs::path &file, const std::string &why)

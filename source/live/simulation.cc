@@ -17,7 +17,7 @@ namespace Exemplar::Live
       return fmt::format("pose {}", pose);
     }
 
-    /// Distances of the vertices from a pose after its best rigid motion to the body.
+    /// Distances of the vertices from a pose that is translated to the mean place of the body.
     std::vector<double>
     distances(const Vector &positions, const Vector &pose, const BodySurface &surface)
     {

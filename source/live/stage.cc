@@ -38,7 +38,7 @@ namespace Exemplar::Live
       {
         throw std::runtime_error(error.what());
       }
-      catch (const std::filesystem::filesystem_error &error) // for instance a recording that was moved
+      catch (const std::filesystem::filesystem_error &error) // for instance a moved recording
       {
         throw std::runtime_error(trouble_with_path(error) + ".");
       }
@@ -120,9 +120,8 @@ namespace Exemplar::Live
   SolveReport
   Stage::advance()
   {
-    const unsigned int next = problem->state.step + 1;
-    const SolveReport  report
-        = problem->advance({ next * step_size, step_size }); // as in TimeAxis
+    const unsigned int next   = problem->state.step + 1;
+    const SolveReport  report = problem->advance({ next * step_size, step_size }); // as in TimeAxis
     if (is_success(report.status))
       save();
     return report;

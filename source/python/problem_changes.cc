@@ -127,7 +127,7 @@ namespace Exemplar::Python
             problem.change_handles([&](Handles &handles)
                                    { handles.grab(name, nodes, stay_here(problem, nodes)); });
             const Handles &handles = problem.constraints.handles;
-            for (unsigned int h = 0; h < handles.size(); ++h) // midside nodes, too
+            for (unsigned int h = 0; h < handles.size(); ++h) // edges of quadratic cells may bend
               if (handles.name(h) == name)
                 problem.set_motion(name, stay_here(problem, handles.nodes(h)));
           });

@@ -36,7 +36,7 @@ namespace Exemplar::Python
         boost::archive::binary_iarchive(bytes) >> saved;
       }
       catch (
-          const std::exception &error) // intact, but of another machine or library
+          const std::exception &error) // intact, but written by a machine or library that differs
       {
         throw UserError(fmt::format("The state was pickled by another build of exemplar {}, of "
                                     "which this one cannot read the bytes ({}). Keep arrays to "

@@ -24,7 +24,7 @@ namespace Exemplar::Live
     /// does not.
     struct Pull
     {
-      std::string          moving, ending, of; ///< events of its moves and of its end, and their name
+      std::string          moving, ending, of; ///< names of its events, and of itself
       dealii::Point<3>     from;               ///< origin of its displacement [m]
       dealii::Point<3>     at, to;             ///< place of the grip, place of the pointer [m]
       dealii::Tensor<1, 3> way = {};           ///< displacement in the last step [m]
@@ -36,7 +36,7 @@ namespace Exemplar::Live
       std::map<std::string, Pull>                      pulls, handles;
       std::map<std::string, std::vector<unsigned int>> pins; ///< nodes, ascending
       WeightSliders                                    weights;
-      double importance = 1.; ///< the last one that was not (almost) 0
+      double importance = 1.; ///< the last one above its lower bound
     };
 
     /// Takes a problem at its beginning; keeps a reference to `surface`.

@@ -14,8 +14,9 @@
 
 namespace Exemplar::Live
 {
-  /// A directory with a session on disk: session.txt, scene.prm, which plays it again to the same bytes, and copies of
-  /// the scene's inputs. An earlier session in it is kept as session_NNNN.txt and scene_NNNN.prm.
+  /// A directory with a session on disk: session.txt, scene.prm, which plays it again to the same
+  /// bytes, and copies of the scene's inputs. An earlier session in it is kept as session_NNNN.txt
+  /// and scene_NNNN.prm.
   class Recording
   {
   public:
@@ -23,8 +24,8 @@ namespace Exemplar::Live
     /// but for meshes, or holds an earlier recording.
     Recording(std::filesystem::path directory, double step_size);
 
-    /// Makes the directory and keeps other servers out of it. To be called before all that follows. Throws UserError
-    /// if another one records there.
+    /// Makes the directory and keeps other servers out of it. To be called before all that follows.
+    /// Throws UserError if another one records there.
     void
     take();
 
@@ -41,8 +42,9 @@ namespace Exemplar::Live
       return directory / "session.txt";
     }
 
-    /// Keeps what is recorded so far under names of its own; returns the scene that plays it, or an empty path if
-    /// nothing was done. SessionLog is to begin a new file after this, and save_scene() to be called.
+    /// Keeps what is recorded so far under names of its own; returns the scene that plays it, or an
+    /// empty path if nothing was done. SessionLog is to begin a new file after this, and
+    /// save_scene() to be called.
     std::filesystem::path
     set_aside();
 
@@ -70,7 +72,7 @@ namespace Exemplar::Live
     std::optional<DirectoryLock> lock; ///< lock of the directory
     unsigned int                 n_poses = 0;
     std::unique_ptr<Descriptor>  scene;            ///< scene.prm, open
-    std::size_t                  place_of_end = 0; ///< offset of the value of Time/End in it [bytes]
+    std::size_t                  place_of_end = 0; ///< offset of the value of Time/End [bytes]
   };
 } // namespace Exemplar::Live
 

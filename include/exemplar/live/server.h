@@ -132,14 +132,14 @@ namespace Exemplar::Live
 
     boost::asio::io_context                      context;
     boost::asio::basic_socket_acceptor<Protocol> acceptor;
-    boost::asio::signal_set                      signals; ///< signals that end it, from the beginning on
+    boost::asio::signal_set                      signals; ///< that end it, from the beginning on
     const Access                                &access;
     const Site                                  &site;
     Audience                                    &audience;
-    std::string                   socket_file; ///< removed at the end; may be empty
-    std::string                   host;        ///< name of the host in addresses
-    unsigned int                  port          = 0;
-    std::shared_ptr<unsigned int> n_connections = std::make_shared<unsigned int>(0);
+    std::string                                  socket_file; ///< removed at the end; may be empty
+    std::string                                  host;        ///< name of the host in addresses
+    unsigned int                                 port          = 0;
+    std::shared_ptr<unsigned int>                n_connections = std::make_shared<unsigned int>(0);
   };
 } // namespace Exemplar::Live
 

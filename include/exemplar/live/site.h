@@ -20,7 +20,8 @@ namespace Exemplar::Live
   class Site
   {
   public:
-    /// The page at which a body is pulled. Throws UserError if a file of it or of three.js is missing.
+    /// The page at which a body is pulled. Throws UserError if a file of it or of three.js is
+    /// missing.
     Site();
 
     /// A site of one page that needs no other file, and no WebSocket.

@@ -64,7 +64,7 @@ namespace Exemplar::Live
     SolveReport
     advance();
 
-    /// After a step that failed: restore its start, without the solver's memory.
+    /// After a step that failed: continue from its start, without the solver's memory.
     void
     forget();
 
@@ -108,10 +108,10 @@ namespace Exemplar::Live
     void
     begin_recording();
 
-    CompleteScene   parameters; ///< parameters of the scene, for this many threads
-    MshFile         contents;   ///< mesh at the beginning, as are the next two
-    BodyFields      fields;
-    UndividedInputs undivided;
+    CompleteScene                  parameters; ///< parameters of the scene, for this many threads
+    MshFile                        contents;   ///< mesh at the beginning, as are the next two
+    BodyFields                     fields;
+    UndividedInputs                undivided;
     std::unique_ptr<Problem>       problem;
     std::unique_ptr<SessionPlayer> player;
     const double                   step_size;

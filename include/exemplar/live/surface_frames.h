@@ -31,7 +31,7 @@ namespace Exemplar::Live
     explicit BodySurface(const Mesh &mesh);
 
     std::vector<unsigned int>                nodes;     ///< mesh node of each vertex, ascending
-    std::vector<std::array<unsigned int, 3>> triangles; ///< vertex numbers, counterclockwise from outside
+    std::vector<std::array<unsigned int, 3>> triangles; ///< counterclockwise from outside
   };
 
   /// The topology message: kind, numbers of vertices and triangles, and the three vertices of each
@@ -49,9 +49,9 @@ namespace Exemplar::Live
     double        time    = 0.; ///< [s]
   };
 
-  /// A frame: places as 16-bit integers in the box of the frame, so that each coordinate is known to
-  /// 1/131068 of the box' edge along it. `colours` are values at the vertices, sent as one byte each;
-  /// empty: none. Bytes in the order of doc/live.md.
+  /// A frame: places as 16-bit integers in the box of the frame, so that each coordinate is known
+  /// to 1/131068 of the box' edge along it. `colours` are values at the vertices, sent as one byte
+  /// each; empty: none. Bytes in the order of doc/live.md.
   Bytes
   frame_message(const FrameHead           &head,
                 const BodySurface         &surface,

@@ -18,7 +18,8 @@ namespace Exemplar::Python
   std::string
   description(const pybind11::handle &object);
 
-  /// Throws UserError unless an array has real numbers: numpy would drop the imaginary parts of complex ones.
+  /// Throws UserError unless an array has real numbers: numpy would drop the imaginary parts of
+  /// complex ones.
   void
   require_real(const pybind11::array &array, const std::string &what);
 

@@ -6,10 +6,10 @@
 
 namespace Exemplar::Python
 {
-  /// A term of Phi that calls function(positions (n,3), time) -> energy, gradient (n,3), sparse Hessian
-  /// (3n,3n) or None, with Python's lock held. `function` is looked at in each call and must outlive
-  /// the term. It is called at once at this state. Exceptions of the function pass through; UserError
-  /// is thrown if it returns anything else.
+  /// A term of Phi that calls function(positions (n,3), time) -> energy, gradient (n,3), sparse
+  /// Hessian (3n,3n) or None, with Python's lock held. `function` is looked at in each call and
+  /// must outlive the term. It is called at once at this state. Exceptions of the function pass
+  /// through; UserError is thrown if it returns anything else.
   std::unique_ptr<PotentialTerm>
   make_function_term(const pybind11::object &function, std::string name, const State &state);
 

@@ -7,8 +7,8 @@
 
 #include <pybind11/pybind11.h>
 
-// Objects of Python's types whose __init__ was never called, as type.__new__(type) and pickles that were
-// changed make them: pybind11 would take memory that nobody has filled for their values.
+// Objects of Python's types whose __init__ was never called, as type.__new__(type) and pickles that
+// were changed make them: pybind11 would take memory that nobody has filled for their values.
 
 namespace Exemplar::Python
 {

@@ -16,9 +16,10 @@ namespace Exemplar::Python
     double       value;
   };
 
-  /// The lower triangle of a Hessian (n, n), a sparse array of scipy; None has no entries. `what` stands for
-  /// it in messages. Throws UserError for anything else: other shapes, entries that are no finite real
-  /// numbers, indices that lead out of the arrays or of the matrix, what is not symmetric.
+  /// The lower triangle of a Hessian (n, n), a sparse array of scipy; None has no entries. `what`
+  /// stands for it in messages. Throws UserError for anything else: other shapes, entries that are
+  /// no finite real numbers, indices that lead out of the arrays or of the matrix, what is not
+  /// symmetric.
   std::vector<MatrixEntry>
   lower_entries_of(const pybind11::object &hessian, std::size_t n, const std::string &what);
 } // namespace Exemplar::Python

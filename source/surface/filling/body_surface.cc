@@ -49,9 +49,9 @@ namespace Exemplar
       return std::max(.01, .25 / std::cbrt(n_cells));
     }
 
-    /// Whether a wrap at a distance is no body: it has gone through an opening and runs along both sides
-    /// of the surface, so that its volume is its area times the distance. Parts as thick as the
-    /// openings that are closed have ten times that.
+    /// Whether a wrap at a distance is no body: it has gone through an opening and runs along both
+    /// sides of the surface, so that its volume is its area times the distance. Parts as thick as
+    /// the openings that are closed have ten times that.
     bool
     is_thin_shell(const TriangleSurface &wrapped, const double distance)
     {

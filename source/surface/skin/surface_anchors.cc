@@ -109,7 +109,8 @@ namespace Exemplar
       are_near(const std::array<unsigned int, n> &some,
                const std::array<unsigned int, 4> &others) const;
 
-      /// Whether two vertices are nearer than a cell is large, but no edge leads from anchor to anchor.
+      /// Whether two vertices are nearer than a cell is large, but no edge leads from anchor to
+      /// anchor.
       bool
       are_parted(const SurfaceMesh                &surface,
                  const std::vector<SurfaceAnchor> &anchors,

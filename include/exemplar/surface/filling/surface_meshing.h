@@ -57,10 +57,10 @@ namespace Exemplar
     std::vector<std::string>               notes;      ///< lines for the user
   };
 
-  /// Read a surface, check it (and mend it, if that is wished), make its edges as long as the number
-  /// of cells wants, fill it with tetrahedra and remove flat ones. Places are those of the file, in
-  /// its unit and axes. Throws UserError for a surface that is no boundary of a body, with what is
-  /// wrong and where; SolverFailure if it cannot be filled.
+  /// Read a surface, check it (and mend it, if that is wished), make its edges as long as the
+  /// number of cells wants, fill it with tetrahedra and remove flat ones. Places are those of the
+  /// file, in its unit and axes. Throws UserError for a surface that is no boundary of a body, with
+  /// what is wrong and where; SolverFailure if it cannot be filled.
   MeshedSurface
   mesh_surface(const SurfaceMeshingOptions &options);
 

@@ -12,7 +12,8 @@ namespace Exemplar
   std::vector<std::string>
   names_of_regions(const TetrahedralMesh &mesh, const std::vector<std::string> &group_names);
 
-  /// Regions as materials: names that are all whole numbers are the ids, others are numbered from 1.
+  /// Regions as materials: names that are all whole numbers are the ids, others are numbered from
+  /// 1.
   Materials
   materials_by_regions(const TetrahedralMesh &mesh, const std::vector<std::string> &region_names);
 

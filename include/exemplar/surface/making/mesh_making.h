@@ -19,8 +19,8 @@ namespace Exemplar
   /// mesh_surface() in a confined process of its own (see confine_this_process()), because CGAL and
   /// gmsh may crash or never end on odd surfaces, and gmsh keeps one model for the whole process.
   /// Returns the bytes of a .msh with the report as its comment. Throws as mesh_surface() does, and
-  /// SolverFailure for a crash and after 60 s and 30 ms a cell and 0.1 ms a byte of the surface. `show`
-  /// is called here, several times a second, with what it has come to.
+  /// SolverFailure for a crash and after 60 s and 30 ms a cell and 0.1 ms a byte of the surface.
+  /// `show` is called here, several times a second, with what it has come to.
   std::string
   make_mesh(const SurfaceMeshingOptions &options, const ShowMeshing &show = {});
 

@@ -39,7 +39,8 @@ namespace Exemplar
     copy_back(const Points &of_neighbourhood, Points &x) const;
 
   private:
-    /// Number in the neighbourhood of each node of the body, or -1; nodes and cells of the neighbourhood.
+    /// Number in the neighbourhood of each node of the body, or -1; nodes and cells of the
+    /// neighbourhood.
     struct Numbering
     {
       std::vector<int>          number;

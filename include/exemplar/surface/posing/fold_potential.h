@@ -102,8 +102,8 @@ namespace Exemplar
     }
 
   private:
-    /// Blocks of the stiffness of a cell for its pairs of nodes (a, b), a <= b; the later node in the body
-    /// has the rows.
+    /// Blocks of the stiffness of a cell for its pairs of nodes (a, b), a <= b; the later node in
+    /// the body has the rows.
     using CellBlocks = std::array<Matrix3<double>, 10>;
 
     void

@@ -41,9 +41,9 @@ namespace Exemplar
 
     const TriangleSurface                          &surface;
     const double                                    limit;
-    std::vector<unsigned int>                       same;  ///< first vertex at each vertex's place
-    std::vector<std::array<unsigned int, 2>>        edges; ///< sorted
-    std::vector<std::array<unsigned int, n_around>> around;    ///< points around each triangle
+    std::vector<unsigned int>                       same;   ///< first vertex at each vertex's place
+    std::vector<std::array<unsigned int, 2>>        edges;  ///< sorted
+    std::vector<std::array<unsigned int, n_around>> around; ///< points around each triangle
     std::vector<double>                             distances; ///< distance of each point
   };
 } // namespace Exemplar

@@ -17,8 +17,8 @@ namespace Exemplar
     std::vector<unsigned int> groups; ///< one a triangle: index of SurfaceMesh::group_names
   };
 
-  /// The polygons of a surface cut into triangles; no vertex is moved or added. A polygon is cut
-  /// at the ear with the largest smallest angle, again and again, as seen along its normal (Newell),
+  /// The polygons of a surface cut into triangles; no vertex is moved or added. A polygon is cut at
+  /// the ear with the largest smallest angle, again and again, as seen along its normal (Newell),
   /// so that polygons that are not convex keep their shape. The triangles of a polygon follow one
   /// another; `faces`, if given, gets the polygon of each triangle. Without groups all are of 0.
   TriangleSurface

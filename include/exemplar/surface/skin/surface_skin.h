@@ -10,15 +10,15 @@
 
 namespace Exemplar
 {
-  /// A surface that the body carries along. A vertex at X that belongs to the point P of the body (X
-  /// itself, inside; see find_anchors()) is displaced by
+  /// A surface that the body carries along. A vertex at X with the anchor P in the body (X itself,
+  /// inside; see find_anchors()) is displaced by
   ///
   ///   u = sum_a N_a(P) (u_a + 1/2 G_a (P - X_a) + G_a (X - P) + 1/2 (X - P) H_a (X - P))
   ///
-  /// over the nodes a of the cell or face of P, with derivatives G_a and H_a of the displacement that
-  /// are recovered at the nodes. Quadratic motions are carried exactly, so that the cells' borders do
-  /// not show as in sum_a N_a u_a; and without displacement the vertices are what they are at rest,
-  /// to the last bit.
+  /// over the nodes a of the cell or face of P, with first and second derivatives G_a and H_a of
+  /// the displacement that are recovered at the nodes. Quadratic motions are carried exactly, so
+  /// that the cells' borders do not show as in sum_a N_a u_a; without displacement the vertices are
+  /// at their rest places, to the last bit.
   class SurfaceSkin
   {
   public:
