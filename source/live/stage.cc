@@ -120,8 +120,9 @@ namespace Exemplar::Live
   SolveReport
   Stage::advance()
   {
-    const unsigned int next   = problem->state.step + 1;
-    const SolveReport  report = problem->advance({ next * step_size, step_size }); // as in TimeAxis
+    const unsigned int next = problem->state.step + 1;
+    const SolveReport  report
+        = problem->advance({ next * step_size, step_size }); // as TimeAxis has it
     if (is_success(report.status))
       save();
     return report;

@@ -114,7 +114,7 @@ namespace Exemplar::Python
       throw UserError(fmt::format("{} must be an array of shape ({},), one number for each of "
                                   "problem.weights, but is {}.",
                                   what, n, description(array)));
-    numbers_of(array, what, py::ssize_t(n)); // or it throws
+    numbers_of(array, what, py::ssize_t(n)); // throws if it does not fit
   }
 
   namespace

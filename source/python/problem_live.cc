@@ -53,7 +53,7 @@ namespace Exemplar::Python
     /// A file written in place of an array of poses=.
     struct PoseFile
     {
-      std::string name; ///< of the array, as the scene has it
+      std::string name; ///< name of the array in the scene
       std::string file;
     };
 
@@ -99,7 +99,7 @@ namespace Exemplar::Python
             ->value;
       };
       const auto poses = write_poses(problem, source, directory);
-      for (DeclaredKey &key : keys) // of handles that follow a pose, say
+      for (DeclaredKey &key : keys) // such as those of handles that follow a pose
         for (const PoseFile &pose : poses)
           if (key.value == pose.name)
             key.value = pose.file;

@@ -30,7 +30,7 @@ namespace Exemplar::Python
       void
       end_problem(PyObject *self)
       {
-        PyObject_GC_UnTrack(self); // before parts of it are gone
+        PyObject_GC_UnTrack(self); // before its parts are destroyed
         py::detail::pybind11_object_dealloc(self);
       }
     }

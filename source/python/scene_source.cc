@@ -252,7 +252,7 @@ namespace Exemplar::Python
               + " does nothing in Python, where no files are written. Remove it, and "
                 "save what you need, such as problem.positions.");
         else if (has_mesh && (a.path() == "Mesh/File" || a.path() == "Mesh/Generator")
-                 && !is_surface_file(a.value)) // that may be the skin of the mesh
+                 && !is_surface_file(a.value)) // a surface may be the skin of the mesh
           source.warnings.push_back(a.path() + " = " + a.value
                                     + " does nothing, as mesh= is given, too. Remove one of them.");
         else if (!assignments.empty() && a.path() == "Examples/Poses")

@@ -15,7 +15,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    constexpr double tolerance = 1e-4; ///< of slopes that should be equal, relative
+    constexpr double tolerance = 1e-4; ///< relative difference of equal slopes
     constexpr double gross     = 0.1;  ///< likewise, for the check by two calls
 
     Vector

@@ -79,7 +79,7 @@ namespace Exemplar::Python
     Trajectory
     record(HeldProblem &held)
     {
-      RecordedSteps known(held.get()); // or it throws
+      RecordedSteps known(held.get()); // throws if it is not made
       return { held.shared_from_this(), {} };
     }
 

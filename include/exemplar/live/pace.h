@@ -73,7 +73,7 @@ namespace Exemplar::Live
     Clock::time_point     due, last_summary;
     unsigned int          n_steps = 0;                   ///< since then
     Clock::duration       longest_step{}, most_behind{}; ///< since then
-    double                most_processor = 0.;           ///< of a step since then [s]
+    double                most_processor = 0.;           ///< longest, since then [s]
   };
 } // namespace Exemplar::Live
 

@@ -132,7 +132,7 @@ namespace Exemplar::Live
 
     boost::asio::io_context                      context;
     boost::asio::basic_socket_acceptor<Protocol> acceptor;
-    boost::asio::signal_set                      signals; ///< that end it, from the beginning on
+    boost::asio::signal_set                      signals; ///< signals to stop, from the beginning
     const Access                                &access;
     const Site                                  &site;
     Audience                                    &audience;

@@ -46,7 +46,7 @@ namespace Exemplar::Live
     void
     write(const std::string &text);
 
-    std::string name; ///< for messages
+    std::string name; ///< name for messages
     CFile       file;
     long        n_bytes = 0; ///< size without the head
   };

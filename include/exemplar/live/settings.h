@@ -55,7 +55,7 @@ namespace Exemplar::Live
     is_without_examples(const Problem &problem) const;
 
   private:
-    const Bounds bounds; ///< by name
+    const Bounds bounds; ///< bounds by name of the number
   };
 
   /// An event before the next step of the problem, when all events of a hand are done.

@@ -20,7 +20,7 @@ namespace Exemplar::Live
   /// Weighted nodes that a hand takes hold of.
   struct SurfacePatch
   {
-    std::vector<unsigned int> nodes;  ///< of the mesh, ascending
+    std::vector<unsigned int> nodes;  ///< nodes of the mesh, ascending
     std::vector<double>       shares; ///< weight of each node; sum 1
   };
 

@@ -184,7 +184,7 @@ namespace Exemplar::Python
     StateReview                    review;
     SolveReport                    report;
     std::thread::id stepping; ///< the thread that makes a step; none: no step is made
-    bool            is_stopped           = false; ///< by the callback
+    bool            is_stopped           = false; ///< whether the callback stopped the solver
     bool            is_warned_of_motions = false;
   };
 } // namespace Exemplar::Python

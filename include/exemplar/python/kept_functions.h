@@ -20,11 +20,11 @@ namespace Exemplar::Python
   /// The Python functions that a problem calls. Their addresses do not change.
   struct KeptFunctions
   {
-    std::map<std::string, pybind11::object> motions; ///< by handle
+    std::map<std::string, pybind11::object> motions; ///< functions by name of handle
     std::list<KeptTerm>                     terms;
-    pybind11::object                        callback = pybind11::none(); ///< of on_iteration()
+    pybind11::object                        callback = pybind11::none(); ///< on_iteration()'s
 
-    /// For Python's garbage collector: call visit(function, arg) for all.
+    /// Calls visit(function, arg) for all functions, for Python's garbage collector.
     int
     visit(visitproc visit, void *arg) const;
 

@@ -16,10 +16,10 @@ namespace Exemplar::Python
   /// program.
   struct SceneSource
   {
-    std::filesystem::path    file;        ///< as it was given; empty: there is none
-    std::string              text;        ///< of the file, or given; empty: a dictionary was given
-    std::vector<Assignment>  assignments; ///< that come after the text
-    std::vector<std::string> warnings = {};    ///< of keys that do nothing in Python
+    std::filesystem::path    file;             ///< path as given; empty: none
+    std::string              text;             ///< text of the scene; empty: a dictionary was given
+    std::vector<Assignment>  assignments;      ///< assignments after the text
+    std::vector<std::string> warnings = {};    ///< keys that do nothing in Python
     std::filesystem::path    place    = {};    ///< absolute, from whose directory files are named
     bool                     has_mesh = false; ///< an array stands in for the mesh
     std::size_t              n_poses  = 0;     ///< arrays that stand in for Examples/Poses

@@ -41,7 +41,7 @@ namespace Exemplar::Python
     /// A field of the state that arrays show.
     struct Shown
     {
-      Vector memory; ///< of a former state; empty: the problem has it
+      Vector memory; ///< field of a former state; empty: problem has it
     };
 
     pybind11::array

@@ -22,8 +22,8 @@ namespace Exemplar::Python
     operator=(const UnlockedWork &)
         = delete;
 
-    /// To be called with Python's lock before such work and now and then within. If Python ends, it
-    /// throws SystemExit, at which a thread ends without a word.
+    /// Throws SystemExit, which ends a thread silently, if Python ends. To be called with Python's
+    /// lock before such work and now and then within.
     static void
     check();
 

@@ -220,7 +220,7 @@ namespace Exemplar
       std::vector<std::vector<std::size_t>> cells_around;
       std::vector<bool>                     on_boundary;
       std::vector<bool>                     gone;
-      std::map<Triangle, unsigned int>      boundary_face; ///< by ascending nodes
+      std::map<Triangle, unsigned int>      boundary_face; ///< by sorted nodes
       std::set<Edge>                        boundary_edges;
     };
   } // namespace

@@ -61,7 +61,7 @@ namespace Exemplar
     {
       Vertices    vertices;
       Pairs       crossing;
-      std::string how; ///< for the user
+      std::string how; ///< description for the user
     };
 
     Vertices

@@ -52,7 +52,7 @@ namespace Exemplar
     /// Eps far from a solution, where the search begins, and eps near to one.
     constexpr double far_eps = 1., near_eps = 0.1;
 
-    /// One node in so many: if no more nodes are in inverted cells, these are treated alone.
+    /// Inverted cells are treated alone if at most one node in so many is theirs.
     constexpr std::size_t few = 200;
 
     constexpr unsigned int first_rings = 4; ///< rings of cells around inverted ones
@@ -85,7 +85,7 @@ namespace Exemplar
       return nodes;
     }
 
-    /// For each vertex of the skin, the least det F of the cells around the nodes that carry it.
+    /// The least det F of the cells around the nodes that carry each vertex of the skin.
     std::vector<double>
     determinants_at_skin(const FoldPotential &potential, const Points &x)
     {
@@ -113,7 +113,8 @@ namespace Exemplar
 
   FoldSolver::FoldSolver(FoldPotential &potential) : potential(potential), system(potential) {}
 
-  /// As-rigid-as-possible (Sorkine and Alexa 2007) on tetrahedra, from the harmonic filling.
+  /// The as-rigid-as-possible deformation (Sorkine and Alexa 2007) of the tetrahedra, from the
+  /// harmonic one.
   Points
   FoldSolver::nearest_rotations() const
   {

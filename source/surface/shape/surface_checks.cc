@@ -194,7 +194,7 @@ namespace Exemplar
       UnionFind together(surface.vertices.size());
       for (const TriangleSide &side : open)
         together.join(side.vertices[0], side.vertices[1]);
-      std::map<unsigned int, std::size_t> n_edges; // of each hole, by its first vertex
+      std::map<unsigned int, std::size_t> n_edges; // of a hole, at its first vertex
       for (const TriangleSide &side : open)
       {
         ++n_edges[together.root(side.vertices[0])];

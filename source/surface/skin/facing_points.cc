@@ -37,7 +37,7 @@ namespace Exemplar
     struct PartOfSurface
     {
       TriangleSurface           surface;
-      std::vector<unsigned int> number; ///< of each triangle, in the whole surface
+      std::vector<unsigned int> number; ///< numbers of the triangles in the whole
     };
 
     /// The triangles that face about this way.

@@ -27,7 +27,7 @@ namespace Exemplar
       return edges;
     }
 
-    /// For each vertex the smallest one of its component: those that edges join to it.
+    /// Connected components of edges: for each vertex the smallest one of its component.
     std::vector<unsigned int>
     joined(const std::size_t n_vertices, const Edges &edges)
     {

@@ -124,7 +124,7 @@ namespace Exemplar
                     const SurfaceMesh::Vertex        &place) const;
 
       const Mesh                            &mesh;
-      std::vector<std::vector<unsigned int>> neighbours; ///< of each node, itself included
+      std::vector<std::vector<unsigned int>> neighbours; ///< adjacent nodes, and itself
       const CellFinder                       cells;
       const TriangleSurface                  boundary;
     };

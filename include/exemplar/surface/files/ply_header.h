@@ -51,7 +51,7 @@ namespace Exemplar
     }
   };
 
-  /// What a .ply file says of itself.
+  /// The header of a .ply file.
   struct PlyHeader
   {
     std::vector<PlyElement> elements; ///< in the file's order

@@ -10,7 +10,7 @@ namespace Exemplar
   struct BodySurface
   {
     TriangleSurface          surface;  ///< without unused vertices
-    TriangleSurface          original; ///< as the file has it
+    TriangleSurface          original; ///< surface of the file, triangulated
     std::vector<std::string> group_names;
     std::vector<std::string> notes; ///< what was found and repaired, a line each
   };

@@ -123,7 +123,7 @@ namespace Exemplar
 
     const unsigned int               n_threads;
     Cells                            cells;
-    std::vector<Tetrahedron<double>> rest; ///< of each cell; volumes as shares of the whole
+    std::vector<Tetrahedron<double>> rest; ///< cells at rest; volumes as shares of the whole
     double                           volume = 0.;
     SymmetricPattern                 pattern;
     /// Positions in `pattern` of the node pairs (a, b), a <= b, of each cell.

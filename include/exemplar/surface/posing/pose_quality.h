@@ -11,7 +11,7 @@ namespace Exemplar
     double       min_det = 0., max_det = 0.;
     double       min_stretch = 0., stretch_1 = 0., stretch_99 = 0., max_stretch = 0.;
     double       mean_error = 0., max_error = 0.; ///< distances to the pose, over its diagonal
-    double       longest_edge = 0.; ///< of the carried surface, over the same edge in the pose
+    double       longest_edge = 0.; ///< carried over posed length, greatest ratio of an edge
     double       rotation     = 0.; ///< angle of the rigid motion that was removed [degrees]
     double       shift        = 0.; ///< displacement of the boundary's middle by that motion [m]
     unsigned int iterations = 0, releases = 0;

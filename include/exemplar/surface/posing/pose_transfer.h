@@ -56,15 +56,15 @@ namespace Exemplar
                     const SurfaceAttachment::Vertices &vertices,
                     PoseQuality                       &quality) const;
 
-    Points                         nodes;
-    SurfaceAttachment              attachment;
-    std::unique_ptr<FoldPotential> potential; ///< on the heap, as the solver refers to it
-    FoldSolver                     solver;
-    std::vector<double>            stiffness;       ///< of the spring of each boundary node [1/m^2]
-    std::unique_ptr<SurfaceSkin>   skin;            ///< null: only boundary nodes are followed
-    std::vector<double>            skin_stiffness;  ///< initial, of `measured` [1/m^2]
-    std::vector<std::size_t>       measured;        ///< vertices of the surface
-    std::vector<std::array<unsigned int, 2>> edges; ///< of the surface's faces
+    Points                                   nodes;
+    SurfaceAttachment                        attachment;
+    std::unique_ptr<FoldPotential>           potential; ///< on the heap, as the solver refers to it
+    FoldSolver                               solver;
+    std::vector<double>                      stiffness; ///< springs of boundary nodes [1/m^2]
+    std::unique_ptr<SurfaceSkin>             skin;      ///< null: only boundary nodes are followed
+    std::vector<double>                      skin_stiffness; ///< initial, of `measured` [1/m^2]
+    std::vector<std::size_t>                 measured;       ///< vertices of the surface
+    std::vector<std::array<unsigned int, 2>> edges;          ///< edges of faces
   };
 
   PoseTransfer::Points

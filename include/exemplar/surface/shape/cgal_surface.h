@@ -7,7 +7,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
-// For files cgal_*.cc alone: CGAL's headers take long to compile.
+// Types of CGAL and conversions, for files cgal_*.cc alone: CGAL's headers take long to compile.
 
 namespace Exemplar
 {

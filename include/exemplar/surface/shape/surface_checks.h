@@ -19,7 +19,7 @@ namespace Exemplar
   {
     std::string  fault; ///< a line of SurfaceFindings::faults
     bool         is_face;
-    unsigned int index; ///< in the file, from 0
+    unsigned int index; ///< number in the file, from 0
   };
 
   /// Faults of a surface that should bound a body.

@@ -18,7 +18,7 @@ namespace Exemplar
     bool                        forward; ///< whether corner k has the smaller vertex
   };
 
-  /// All sides, sorted by their vertices, so that those of an edge follow one another; sides
+  /// All sides, sorted by their vertices, so that sides of an edge follow one another; sides
   /// without length, from a vertex to itself, are left out.
   std::vector<TriangleSide>
   sorted_sides(const TriangleSurface &surface);

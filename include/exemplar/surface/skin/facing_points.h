@@ -16,9 +16,9 @@ namespace Exemplar
   bool
   faces_away(const TriangleSurface &surface, unsigned int triangle, const SpaceVector &normal);
 
-  /// For each of `points`, whose nearest points on the surface are `nearest`: nothing, unless its
-  /// nearest triangle faces_away() from its normal. Then the point nearest to it on triangles that
-  /// face the same way; nothing if that is farther than the triangle is long.
+  /// Replacements of nearest points: for each of `points`, with its nearest point in `nearest`,
+  /// nothing, unless its nearest triangle faces_away() from its normal. Then the point nearest to
+  /// it on triangles that face the same way; nothing if that is farther than the triangle is long.
   std::vector<std::optional<SurfacePoint>>
   facing_points(const TriangleSurface                  &surface,
                 const std::vector<SurfaceMesh::Vertex> &points,
