@@ -24,8 +24,7 @@ namespace Exemplar::Live
   namespace
   {
     constexpr unsigned int max_connections = 64, max_requests = 200;
-    constexpr auto         max_wait
-        = std::chrono::seconds(10); ///< limit for a request or a part of an answer
+    constexpr auto max_wait = std::chrono::seconds(10); ///< for a request or a part of an answer
 
     /// An HTTP connection, until it closes or becomes a viewer.
     class Connection : public std::enable_shared_from_this<Connection>

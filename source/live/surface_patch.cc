@@ -18,7 +18,7 @@ namespace Exemplar::Live
       return { positions[dof], positions[dof + 1], positions[dof + 2] };
     }
 
-    /// The vertices connected with a triangle through triangles whose vertices are all near.
+    /// The corners of a triangle and all vertices connected with them by edges to near vertices.
     std::vector<bool>
     reached(const unsigned int begin, const BodySurface &surface, const std::vector<bool> &is_near)
     {

@@ -24,7 +24,7 @@ namespace Exemplar::Live
     /// does not.
     struct Pull
     {
-      std::string          moving, ending, of; ///< names of its events, and of itself
+      std::string          moving, ending, of; ///< kinds of its events, and their name
       dealii::Point<3>     from;               ///< origin of its displacement [m]
       dealii::Point<3>     at, to;             ///< place of the grip, place of the pointer [m]
       dealii::Tensor<1, 3> way = {};           ///< displacement in the last step [m]

@@ -50,7 +50,7 @@ namespace Exemplar::Live
       return bounds;
     }
 
-    /// Whether the importance is at its lower bound, where the examples have no effect.
+    /// Whether the importance is at its lower bound, where the examples hardly act.
     bool
     is_without_examples(const Problem &problem) const;
 

@@ -185,8 +185,8 @@ namespace Exemplar
       return from_cgal_mesh(mesh, [&](const CgalMesh::Face_index face) { return groups[face]; });
     }
 
-    /// Vertices that are farther from a remeshed surface than half of `spacing`, the farthest
-    /// first, with that spacing: the tips of ears and tails, which relaxation rounds off.
+    /// Vertices farther from a remeshed surface than half of `spacing`, chosen from the farthest on
+    /// and no two nearer than `spacing`: the tips of ears and tails, which relaxation rounds off.
     std::vector<bool>
     lost_tips(const TriangleSurface &surface, const TriangleSurface &remeshed, const double spacing)
     {

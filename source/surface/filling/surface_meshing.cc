@@ -62,9 +62,9 @@ namespace Exemplar
       return std::cbrt(10. * std::abs(enclosed_volume(surface)) / n_cells);
     }
 
-    /// A surface that has many times the triangles that cells of this size can follow, with edges
-    /// of a part of their size, so that attempts to fill it take no longer than those of a coarse
-    /// one; itself if it has fewer, or cannot be remeshed without intersections.
+    /// A surface with many times the triangles that cells of this size can follow, remeshed with
+    /// edges of a part of their size, so that attempts to fill it take no longer than those of a
+    /// coarse one; the surface itself if it has fewer, or cannot be remeshed without intersections.
     TriangleSurface
     without_excess(const TriangleSurface &surface,
                    const double           n_cells,
