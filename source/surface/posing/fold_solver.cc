@@ -49,7 +49,7 @@ namespace Exemplar
     /// Least eps: cells that are inverted at it stay so.
     constexpr double min_eps = 5e-3;
 
-    /// Eps far from a solution, where the search begins, and eps near to one.
+    /// Eps at the beginning, and eps below which few inverted cells are left to be treated alone.
     constexpr double far_eps = 1., near_eps = 0.1;
 
     /// Inverted cells are treated alone if at most one node in so many is theirs.
