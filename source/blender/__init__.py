@@ -16,7 +16,7 @@ bl_info = {"name": "exemplar", "blender": (3, 4, 0), "version": (0, 1, 0), "cate
            "location": "3D View > Sidebar > exemplar", "doc_url": "", "description": "Elastic bodies that bend as their shape keys say"}
 
 POLL = 0.2  # [s]
-MADE = "exemplar made"  # custom property of what the add-on makes: for which body, and under which name
+MADE = "exemplar made"  # custom property of objects that the add-on makes: for which body, and under which name
 
 
 class Settings(bpy.types.PropertyGroup):
@@ -27,7 +27,7 @@ class Settings(bpy.types.PropertyGroup):
     follow: StringProperty(name="Follow", description="Vertex group that goes where armature, modifiers and keys put it")
     pin: StringProperty(name="Pin", description="Vertex group that stays where it is at rest")
     repair: BoolProperty(name="Repair", description="Mend holes and crossing faces before the body is filled")
-    token: StringProperty(options={"HIDDEN"})  # by which the body is known, whatever its name becomes
+    token: StringProperty(options={"HIDDEN"})  # identity of the body, whatever its name becomes
 
 
 class Preferences(bpy.types.AddonPreferences):
@@ -41,15 +41,15 @@ class Preferences(bpy.types.AddonPreferences):
 class Running:
     """The run that goes on, or was the last; one at a time. What artists may rename or delete meanwhile is not held by reference."""
     job = None
-    search = None  # for faults, after a run that has failed
-    token = ""     # of the body
-    title = ""     # its name at the start
+    search = None  # search for faults, after a run that has failed
+    token = ""     # token of the body
+    title = ""     # name of the body at the start
     scene = ""     # name of the scene
-    start = 0      # its first frame
-    faces = ()     # of the body
-    worn = ()      # names of what it wears
-    poses = ()     # names of its shape keys
-    said = ""      # for the panel
+    start = 0      # first frame of the scene
+    faces = ()     # faces of the body
+    worn = ()      # names of objects that the body carries
+    poses = ()     # names of the body's shape keys
+    said = ""      # text for the panel
 
     @classmethod
     def is_on(cls):
@@ -77,7 +77,7 @@ def hide(shown, hidden=True):
     try:
         shown.hide_set(hidden)
     except RuntimeError:
-        pass  # it is in no collection of this view layer, so it is not seen
+        pass  # the object is in no collection of this view layer, so it is not seen
 
 
 def mark(shown, name):
@@ -112,7 +112,7 @@ def start(context, body):
     scene, settings = context.scene, body.exemplar
     if not settings.token or sum(item.exemplar.token == settings.token for item in bpy.data.objects) > 1:
         settings.token = uuid.uuid4().hex  # a copy is another body
-    hide(body, False)  # what is hidden is not evaluated
+    hide(body, False)  # hidden objects are not evaluated
     directory = directory_of(body)
     try:
         file = scene_files.write_scene(body, settings, scene, directory)

@@ -27,7 +27,7 @@ class Failure(Exception):
     """Something about the input that the user can change."""
 
 
-# What the run has written
+# Files that a run has written
 
 
 def read_obj(path):
@@ -104,7 +104,7 @@ class Run:
             rows = {int(row["step"]): row for row in csv.DictReader(file)}
         names = [re.fullmatch(rf"frame_(\d+)\.{self.extension}", file.name) for file in self.directory.iterdir()]
         steps = sorted(int(name[1]) for name in names if name)
-        if len(steps) != len(self.places):  # they were deleted: every so many, and the last
+        if len(steps) != len(self.places):  # frame files were deleted: frames are of every so many steps, and of the last
             every = int(self.parameter("Every") or 1)
             steps = sorted({step for step in rows if step % every == 0} | {max(rows)})
             if len(steps) > len(self.places):
@@ -134,7 +134,7 @@ class Run:
         return abs(gravity[2]) > abs(gravity[1])
 
 
-# What Blender gets
+# Objects made in Blender
 
 
 def make_object(name, run):

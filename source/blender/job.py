@@ -25,7 +25,7 @@ class Job:
         self.directory = scene_file.parent
         self.output = self.directory / "output"
         for file in self.output.glob("frame_*.pc2"):
-            file.unlink()  # so that frames that are there are of this run
+            file.unlink()  # so that all frames that exist are of this run
         self.n_steps = n_steps
         self.log = self.directory / "log.txt"
         self.shown = -1  # step of the last frame that was asked for

@@ -186,7 +186,7 @@ def write_scene(body, settings, scene, directory):
     check(body, settings, scene)
     directory.mkdir(parents=True, exist_ok=True)
     shown = scene.frame_current
-    scene.frame_set(scene.frame_start)  # where the object is then is where the body begins
+    scene.frame_set(scene.frame_start)  # the body begins where the object is at the first frame
     try:
         faces = faces_of(body)
         write_obj(directory / "body.obj", rest_places(body), faces)

@@ -14,7 +14,7 @@ namespace Exemplar::Live
 {
   namespace
   {
-    /// Hexadecimal digits of that many random bytes.
+    /// Hexadecimal digits of n random bytes.
     template <std::size_t n>
     std::string
     random_word()
@@ -29,7 +29,7 @@ namespace Exemplar::Live
       return word;
     }
 
-    /// In a time that does not tell where they differ.
+    /// Constant-time comparison, which does not reveal where texts differ.
     bool
     are_same(const std::string_view a, const std::string_view b)
     {
@@ -56,7 +56,7 @@ namespace Exemplar::Live
       return text;
     }
 
-    /// NAME:PORT without the port, which is digits.
+    /// The name in NAME:PORT; PORT is digits.
     std::string_view
     without_port(const std::string_view host)
     {
@@ -68,7 +68,7 @@ namespace Exemplar::Live
                            && port.find_first_not_of("0123456789") == std::string_view::npos;
       return is_port ? host.substr(0, colon) : std::string_view();
     }
-    /// Throws UserError for what no Host header names.
+    /// Throws UserError for a name that cannot be in a Host header.
     void
     require_host(const std::string &host)
     {

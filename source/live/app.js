@@ -103,7 +103,7 @@ const pointer = new Pointer(view, connection, {
   onPull: () => (hasPulled = true),
 });
 
-// Beside the body until it was pulled first, and not while it is held.
+// Hint beside the body until it is pulled first; hidden while it is held.
 setInterval(() => {
   find("hint").hidden = hasPulled || !view.hasPlace || !panel.hasMouse || Boolean(pointer.held);
   if (find("hint").hidden)

@@ -22,7 +22,7 @@ namespace Exemplar::Live
       return Json{ { "type", type }, { "text", text } }.dump();
     }
 
-    /// The number of an acknowledgement, which is no command; 0: it is none.
+    /// The frame number of an acknowledgement, which is no command; 0: the message is none.
     unsigned int
     acknowledged(const std::string &message)
     {
@@ -57,7 +57,7 @@ namespace Exemplar::Live
       return;
     }
     std::string line;
-    for (const char letter : what.substr(0, 200)) // strangers choose some of it
+    for (const char letter : what.substr(0, 200)) // partly chosen by strangers
       line += letter >= ' ' && letter <= '~' ? letter : '?';
     std::cerr << "exemplar: Refused: " << line << "." << std::endl;
   }
@@ -91,7 +91,7 @@ namespace Exemplar::Live
         viewers.erase(std::shared_ptr<Viewer>(other));
         break;
       }
-    if (viewer == holder) // perhaps in the middle of a pull
+    if (viewer == holder) // who may be in the middle of a pull
     {
       mailbox.put({ "let go of all" });
       holder = nullptr;
@@ -124,7 +124,7 @@ namespace Exemplar::Live
   Audience::show(const Bytes &frame)
   {
     newest = frame;
-    for (const auto &viewer : std::set<std::shared_ptr<Viewer>>(viewers)) // one may leave
+    for (const auto &viewer : std::set<std::shared_ptr<Viewer>>(viewers)) // a copy: one may leave
       viewer->send_frame(frame);
   }
 

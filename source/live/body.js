@@ -63,7 +63,7 @@ export class Body {
     this.hasColours = Boolean(bytes);
   }
 
-  // Null: no patch.
+  // Shows the patch; null: none.
   showPatch(point, radius = 0) {
     this.patch.patchRadius.value = point ? radius : 0;
     if (point)
@@ -85,7 +85,7 @@ export class Body {
     return point;
   }
 
-  // What of it a ray meets first: {triangle, shares, point}; null: nothing.
+  // The first hit of a ray with the surface: {triangle, shares, point}; null: none.
   hit(caster) {
     const hit = caster.intersectObject(this.mesh)[0];
     if (!hit)

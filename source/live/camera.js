@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From where the body is seen: turned by hand or by keys, or brought to a place that a button names.
+// The camera: turned by hand or by keys, or brought to a place that a button names.
 import * as THREE from "./three/build/three.module.js";
 import { OrbitControls } from "./three/examples/jsm/controls/OrbitControls.js";
 
@@ -16,7 +16,7 @@ export class Camera {
     canvas.addEventListener("keydown", (event) => this.hearKey(event));
   }
 
-  // Against gravity. Controls are made for one such direction.
+  // Sets the up direction, against gravity. Controls are made for one such direction.
   setUp(up) {
     this.up = up;
     this.front = new THREE.Vector3(0, -1, 0).addScaledVector(up, up.y);
@@ -40,7 +40,7 @@ export class Camera {
       top: up.clone().addScaledVector(front, 1e-3) }[name].normalize();
   }
 
-  // From there, so that all of a sphere is seen; at once, or as the eye can follow.
+  // Looks from a direction, so that all of a sphere is seen; at once, or as the eye can follow.
   look(name, { center, radius }, atOnce) {
     const distance = (1.15 * radius) / Math.sin((this.camera.fov * Math.PI) / 360) / Math.min(1, this.camera.aspect);
     this.camera.near = 0.01 * radius;

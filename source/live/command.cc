@@ -17,10 +17,10 @@ namespace Exemplar::Live
 
     constexpr std::size_t max_name = 64, max_vertices = 20000;
 
-    /// Numbers as many as a body asks for, but not more than this.
+    /// Greatest count of numbers for types that take any count.
     constexpr std::size_t any_number = 1000;
 
-    /// What a type takes beside "type".
+    /// Members that a type of command has beside "type".
     struct Shape
     {
       bool        has_name;
@@ -34,7 +34,7 @@ namespace Exemplar::Live
       { "release", { true, 0, false, false, false } },
       { "pin", { true, 0, false, true, false } },
       { "unpin", { true, 0, false, false, false } },
-      { "handle", { true, 3, false, false, false } }, // by how much it is moved
+      { "handle", { true, 3, false, false, false } }, // displacement
       { "set", { true, 1, false, false, false } },
       { "weights", { false, any_number, false, false, false } },
       { "gravity", { false, 3, false, false, false } },
@@ -87,8 +87,7 @@ namespace Exemplar::Live
       const auto word = value.get<std::string>();
       if (word.empty() || word.find('|') != std::string::npos
           || find_unprintable(word) != std::string::npos || word.find('\t') != std::string::npos
-          || word
-                 != trim(word)) // a session file keeps words between | without blanks at their ends
+          || word != trim(word)) // session files trim words between |
         throw std::invalid_argument(std::string(key)
                                     + " is empty, begins or ends with a blank, or has a | or what "
                                       "is no text");

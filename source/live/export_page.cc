@@ -51,7 +51,7 @@ namespace Exemplar::Live
       return dealii::Utilities::encode_base64({ bytes.begin(), bytes.end() });
     }
 
-    /// Whether there is a file that a page may do without; a pipe is none, as it would be waited for.
+    /// Whether an optional file exists; a pipe does not count, as reading it would block.
     bool
     is_there(const fs::path &file)
     {
@@ -92,7 +92,7 @@ namespace Exemplar::Live
       return columns;
     }
 
-    /// The vertices of triangles, and the triangles by them.
+    /// The surface in a frame: vertices of its triangles, and the triangles by them.
     BodySurface
     surface_in(const fs::path &file)
     {
@@ -113,7 +113,8 @@ namespace Exemplar::Live
       return surface;
     }
 
-    /// Vertices of a surface among nodes that are given as ranges, as summary.json has them: "0-3 7".
+    /// Vertices of a surface among nodes that are given as ranges, as summary.json has them: "0-3
+    /// 7".
     Json
     vertices_in(const std::string &ranges, const BodySurface &surface)
     {
@@ -136,7 +137,7 @@ namespace Exemplar::Live
       return vertices;
     }
 
-    /// What summary.json says of the run, if it is there: names of examples, and who is held.
+    /// Adds names of examples and held vertices from summary.json, if it exists.
     void
     add_names(const fs::path &directory, const BodySurface &surface, Json &data)
     {
@@ -157,7 +158,8 @@ namespace Exemplar::Live
                 { "vertices", vertices_in(handle["nodes"].get<std::string>(), surface) } });
     }
 
-    /// A page with texts in its places, which stand between @; what the texts hold is no place.
+    /// A page with its placeholders, names between @, replaced by texts, which are not searched
+    /// again.
     std::string
     filled(const std::string &page, const std::map<std::string, std::string> &texts)
     {
@@ -182,7 +184,7 @@ namespace Exemplar::Live
       return result;
     }
 
-    /// JSON that may stand in a script, which no < ends or makes a comment of.
+    /// JSON escaped for a script element, which < could otherwise end.
     std::string
     in_script(const Json &data)
     {
@@ -192,13 +194,13 @@ namespace Exemplar::Live
       return text;
     }
 
-    /// A run, as the page has it.
+    /// The data of a run in the page.
     struct PageRun
     {
       Json        data;
       std::string topology, frames;
       std::size_t n_frames = 0;
-      double      error    = 0.; ///< of a coordinate [m]
+      double      error    = 0.; ///< largest error of a coordinate [m]
     };
 
     PageRun
@@ -228,7 +230,7 @@ namespace Exemplar::Live
       return run;
     }
 
-    /// Bytes that are no script, under a name by which the page finds them.
+    /// A script element that holds bytes in base64, under an id by which the page finds it.
     std::string
     element(const std::string &name, const std::size_t i, const std::string &bytes)
     {

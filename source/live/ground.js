@@ -4,7 +4,7 @@ import * as THREE from "./three/build/three.module.js";
 
 const SIZE = 256; // of the shadow [pixels]
 
-// How near the ground a point is, as opacity.
+// Shader: nearness of a point to the ground, as opacity.
 const CAST = {
   vertexShader: "uniform vec3 up; uniform float level; varying float height;" +
     "void main() { height = dot(position, up) - level; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }",
@@ -16,7 +16,7 @@ const BLUR = "uniform sampler2D before; uniform vec2 pitch; varying vec2 at; voi
   "for (int i = -8; i <= 8; ++i) { float share = exp(-float(i * i) / 24.0); all += share; sum += share * texture2D(before, at + float(i) * pitch).a; }" +
   "gl_FragColor = vec4(0.0, 0.0, 0.0, sum / all); }";
 const FLAT = "varying vec2 at; void main() { at = uv; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }";
-// With noise of a grey level, or there would be rings.
+// Shader: noise of one grey level, which prevents banding.
 const DISC = "uniform vec3 colour; uniform float opacity; varying vec2 at; void main() {" +
   "float noise = fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453) - 0.5;" +
   "gl_FragColor = vec4(colour, opacity * (1.0 - smoothstep(0.1, 0.5, distance(at, vec2(0.5)))) + noise / 255.0); }";
@@ -55,7 +55,7 @@ export class Ground {
     this.shade.material.uniforms.opacity.value = shadow;
   }
 
-  // Below the lowest point of a body at rest.
+  // Places the ground below the lowest point of a body at rest.
   place(geometry, up) {
     this.geometry = geometry;
     const { center, radius } = geometry.boundingSphere;
@@ -87,7 +87,7 @@ export class Ground {
     return point.clone().addScaledVector(up.value, level.value - point.dot(up.value));
   }
 
-  // Seen from far below, so that what is nearest to the ground counts; the shadow goes along with the body.
+  // The shadow is rendered from far below, so that the nearest parts to the ground count; it goes along with the body.
   castShadow() {
     if (!this.isOld || !this.geometry)
       return;

@@ -10,20 +10,22 @@ namespace Exemplar::Live
 {
   namespace
   {
-    /// The stiffness of a spring of strength 1, over Young's modulus times the diameter of the body.
+    /// The stiffness of a spring of strength 1, over Young's modulus times the diameter of the
+    /// body.
     constexpr double relative_stiffness = 0.02;
 
-    /// Of the patch that a hand takes hold of, over the diameter of the body.
+    /// Radius of the patch that a hand takes hold of, over the diameter of the body.
     constexpr double relative_radius = 0.1;
 
-    /// How fast a pull follows its pointer [1/s], over the diameter of the body.
+    /// Greatest speed with which a pull follows its pointer [1/s], over the diameter of the body.
     constexpr double relative_speed = 0.4;
 
-    /// Of the way to its pointer, what a pull strives to go in a step, and how far its way turns to that: as much
-    /// as steps can predict. With half as much eagerness as agility a pull goes hardly beyond its pointer.
+    /// Gains of a damped follower, for each step: wanted displacement over the distance to the
+    /// pointer, and share by which the displacement approaches the wanted one. Steps predict that
+    /// much; eagerness = agility / 2 makes the damping ratio about 0.7, with hardly any overshoot.
     constexpr double eagerness = 0.1, agility = 0.2;
 
-    /// Over the diameter of the body: what is as near as this is there.
+    /// Distance below which a pull has reached its pointer, over the diameter of the body.
     constexpr double relative_nearness = 1e-5;
 
     constexpr std::size_t max_pins = 100, max_springs = 10;
@@ -51,7 +53,7 @@ namespace Exemplar::Live
       return { numbers[first], numbers[first + 1], numbers[first + 2] };
     }
 
-    /// The event of a pull that is where it now is.
+    /// The event that moves a pull to its present place.
     SessionEvent
     moved(const Problem &problem, const Hand::Pull &pull)
     {
@@ -59,7 +61,7 @@ namespace Exemplar::Live
       return before_next_step(problem, pull.moving, pull.of, {}, { way[0], way[1], way[2] });
     }
 
-    /// Nodes, held where they are.
+    /// The event that holds nodes where they are.
     SessionEvent
     hold_here(const Problem                   &problem,
               const std::string               &name,

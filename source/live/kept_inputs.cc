@@ -12,7 +12,7 @@ namespace Exemplar::Live
 
   namespace
   {
-    /// Of the contents and names of files, whatever directory they are in.
+    /// Digest of the contents and names of files, without their directories.
     std::string
     digest_of(const std::vector<fs::path> &files)
     {
@@ -29,7 +29,8 @@ namespace Exemplar::Live
                          [](const fs::path &file) { return fs::exists(file); });
     }
 
-    /// A .geo may take in other files, and gmsh another time: what it gave is kept in its place.
+    /// Whether the mesh comes from a .geo, which may include other files, and give another mesh in
+    /// another version of gmsh: the mesh is kept instead.
     bool
     is_geo(const std::string &key, const std::string &name)
     {
@@ -86,7 +87,7 @@ namespace Exemplar::Live
     copy(const std::vector<fs::path> &files, const std::string &digest, const fs::path &folder)
     {
       if (fs::is_directory(folder))
-        return; // of an earlier recording
+        return; // the folder of an earlier recording
       make_folder(folder,
                   [&](const fs::path &unfinished)
                   {
@@ -122,7 +123,7 @@ namespace Exemplar::Live
   std::vector<DeclaredKey>
   KeptInputs::copy_to(const fs::path &directory, const MshFile &mesh) const
   {
-    std::vector<Named> named = all; // the longest name first, as it may contain another
+    std::vector<Named> named = all; // longest names first, as they may contain others
     std::stable_sort(named.begin(), named.end(),
                      [](const Named &a, const Named &b) { return a.name.size() > b.name.size(); });
     std::vector<DeclaredKey> copied = keys;

@@ -10,13 +10,13 @@ namespace Exemplar::Live
   {
     constexpr std::size_t max_commands = 1000;
 
-    /// Room for a command, beyond which it is refused. What ends a pull has room of its own, as else a viewer who has
-    /// asked for too much would leave the body on its spring.
+    /// Greatest length of the queue at which a command is accepted. The end of a pull has room of
+    /// its own, as else a viewer who has asked for too much would leave the body on its spring.
     std::size_t
     room_for(const Command &command)
     {
       if (command.type
-          == "let go of all") // which the server says, when the mouse goes to another viewer
+          == "let go of all") // sent by the server, when the mouse goes to another viewer
         return std::numeric_limits<std::size_t>::max();
       return command.type == "release" ? 2 * max_commands : max_commands;
     }
@@ -26,7 +26,7 @@ namespace Exemplar::Live
   Mailbox::put(Command command)
   {
     const std::lock_guard<std::mutex> lock(mutex);
-    // only within one run of moves: what was grabbed and let go in between is not to be mixed
+    // merge only within one run of moves: not across a grab or release in between
     for (auto before = commands.rbegin();
          before != commands.rend() && command.type == "move" && before->type == "move"; ++before)
       if (before->name == command.name)

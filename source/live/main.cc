@@ -25,7 +25,7 @@ namespace Exemplar::Live
 {
   namespace
   {
-    /// What the command line says.
+    /// Arguments of the command line.
     struct Arguments
     {
       std::string              record;
@@ -35,7 +35,7 @@ namespace Exemplar::Live
       bool                     until_input_ends = false;
     };
 
-    /// What --help ends with.
+    /// The end of the text of --help.
     std::string
     footer(const std::string &example)
     {
@@ -77,8 +77,8 @@ Exit status:
       app.footer(footer("live prm/live/cat.prm --record session"));
     }
 
-    /// Steps of the pace of displays, none of which waits for a factor, and of motions that are not smooth, unless
-    /// the command line says otherwise.
+    /// Overrides, completed by defaults for keys that they do not have: a time step of 1/60 s,
+    /// factorizations in the background, and a prediction for motions that are not smooth.
     std::vector<std::string>
     with_defaults(std::vector<std::string> overrides)
     {
@@ -96,7 +96,8 @@ Exit status:
       return overrides;
     }
 
-    /// Ends a server when standard input ends: when the program that has started it closes that, or is gone.
+    /// Ends a server when standard input ends: when the program that started it closes it, or is
+    /// gone.
     class InputWatch
     {
     public:
@@ -125,7 +126,7 @@ Exit status:
       std::array<char, 64>                  bytes{};
     };
 
-    /// The solver's thread; its error, if it ends by one, ends the server, too.
+    /// The solver's thread; an error that ends it ends the server, too.
     class SolverThread
     {
     public:
@@ -177,7 +178,7 @@ Exit status:
       std::thread        thread;
     };
 
-    /// Play runs that have ended. Returns the exit status: a signal ends it.
+    /// Serves the player of finished runs. Returns the exit status after a signal.
     int
     serve_runs(const Arguments &arguments)
     {
@@ -196,7 +197,7 @@ Exit status:
       return 130;
     }
 
-    /// Pull a body. Returns the exit status: a signal ends it.
+    /// Serves a simulation. Returns the exit status after a signal.
     int
     serve_scene(const Arguments &arguments)
     {
@@ -234,7 +235,7 @@ Exit status:
       return 130;
     }
 
-    /// What CLI11 says, but of options that it does not know; without the full stop.
+    /// CLI11's message, with own words for unknown options; without the full stop.
     std::string
     in_own_words(const CLI::ParseError &error)
     {

@@ -4,7 +4,7 @@ import * as THREE from "./three/build/three.module.js";
 
 const PIXELS = 64;
 
-// With a dot for what is pinned.
+// The ring of a mark, with a dot for pins.
 function ring(colour, edge, hasDot) {
   const canvas = Object.assign(document.createElement("canvas"), { width: PIXELS, height: PIXELS });
   const pen = canvas.getContext("2d");
@@ -23,7 +23,7 @@ function ring(colour, edge, hasDot) {
   return new THREE.CanvasTexture(canvas);
 }
 
-// Some of the vertices, no two of them nearer than that, as rings that touch are none.
+// Some of the vertices, no two of them nearer than a distance, so that their rings do not touch.
 function spaced(vertices, vertexAt, distance) {
   const places = [];
   return vertices.filter((vertex) => {
@@ -71,7 +71,7 @@ export class Marks {
     this.move(geometry);
   }
 
-  // A little above the surface, which would hide half of them.
+  // Places rings a little above the surface, which would hide half of them.
   move(geometry) {
     const { position, normal } = geometry.attributes;
     for (const { geometry: own, userData } of this.group.children) {
@@ -84,13 +84,13 @@ export class Marks {
     }
   }
 
-  // The handle under the pointer has larger ones.
+  // Enlarges the rings of the handle under the pointer.
   stress(name) {
     for (const { material, userData } of this.group.children)
       material.size = userData.kind === "handle" && userData.name === name ? 20 : 14;
   }
 
-  // As wide wherever the camera is.
+  // Draws the line of a pull, of the same width on screen wherever the camera is.
   showSpring(from, to, camera) {
     this.spring.visible = Boolean(from) && from.distanceTo(to) > 0;
     if (!this.spring.visible)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What goes to and fro, as doc/live.md has it.
+// Messages between page and server, see doc/live.md.
 
 const HEAD = 64; // bytes before the places of a frame
 

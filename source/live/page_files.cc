@@ -22,7 +22,8 @@ namespace Exemplar::Live
       return bytes.str();
     }
 
-    /// Beside the program in a build, under share where it is installed.
+    /// The directory of the page's files: beside the program in a build, under share where it is
+    /// installed.
     fs::path
     directory_of_page()
     {

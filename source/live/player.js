@@ -128,7 +128,7 @@
     return numbers.length > 1 ? `${example}, region ${numbers[0]}` : example;
   }
 
-  // Of plots: one of the weights, one of the energies; the second run is dashed.
+  // The plots: one of the weights, one of the energies; the second run is dashed.
   const plots = [["weight_", "Weights of the examples"], ["energy_", "Energies [J]"]].map(([prefix, title]) => ({
     title, lines: runs.flatMap((run, k) => Object.keys(run.plots).filter((column) => column.startsWith(prefix)).map((column) => (
       { name: nameOf(column, run), run: run.name, dash: k ? [8, 6] : [], times: run.plots.time, values: run.plots[column].map((v) => (v === null ? NaN : v)) }))) }))
@@ -152,7 +152,7 @@
     find("plots").append(box);
   }
 
-  // Of a line, the value of the last row that is not after this time.
+  // The value of a line in the last row that is not after this time.
   const valueAt = ({ times, values }, time) => {
     const after = times.findIndex((t) => t > time + 1e-9);
     return values[after < 0 ? values.length - 1 : Math.max(0, after - 1)];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a mouse or a finger does: grabs the body or a handle, brushes a pin, or turns the view.
+// Actions of a mouse or a finger: grabs the body or a handle, brushes a pin, or turns the view.
 
 const NAME = "pointer"; // of the one spring that a page pulls by
 
@@ -69,7 +69,7 @@ export class Pointer {
       this.show("nothing");
   }
 
-  // Once a frame of the display.
+  // Called once a frame of the display.
   follow() {
     const { held, view } = this;
     view.marks.showSpring(null);
@@ -118,7 +118,7 @@ export class Pointer {
     return this.tool() === "pin" ? 0.3 * this.grabRadius() : this.grabRadius();
   }
 
-  // For the shape of the cursor.
+  // Sets the shape of the cursor.
   show(over) {
     this.view.canvas.dataset.over = over;
   }

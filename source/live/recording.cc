@@ -29,10 +29,10 @@ namespace Exemplar::Live
 
     constexpr unsigned int greatest_of_all = 1000000000;
 
-    /// Frames that a session has when it is played, of a second [1/s]: as many as are seen as motion.
+    /// Frame rate of a session when it is played [1/s]: fast enough to be seen as motion.
     constexpr double frame_rate = 30.;
 
-    /// Characters that the value of Time/End takes, so that a longer one replaces it in its place.
+    /// Width of the value of Time/End in characters, so that a longer one fits in its place.
     constexpr std::size_t width_of_end = 24;
 
     bool
@@ -42,7 +42,8 @@ namespace Exemplar::Live
              && read_text_file(file).value_or("").compare(0, bytes.size(), bytes) == 0;
     }
 
-    /// Whether something in a directory is of a recording that has hardly begun, or a mesh, which stays.
+    /// Whether a directory entry belongs to a recording that has hardly begun, or is a mesh, which
+    /// stays.
     bool
     may_be_of_recording(const fs::directory_entry &entry)
     {
@@ -54,7 +55,7 @@ namespace Exemplar::Live
                  && Exemplar::objection_to(path, mark_of_recording).empty());
     }
 
-    /// Whether the directory is of a recording, or not there, or holds nothing else.
+    /// Whether the directory is that of a recording, does not exist, or holds nothing else.
     bool
     is_ours(const fs::path &directory)
     {
@@ -79,7 +80,7 @@ namespace Exemplar::Live
           continue;
         const auto number = decimal_number<unsigned int>(
             name.substr(begin.size(), name.size() - begin.size() - end.size()));
-        if (number && *number < greatest_of_all) // else the next one would begin anew
+        if (number && *number < greatest_of_all) // the next number would overflow
           greatest = std::max(greatest, *number);
       }
       return greatest;

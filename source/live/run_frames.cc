@@ -20,8 +20,7 @@ namespace Exemplar::Live
 
   namespace
   {
-    constexpr std::size_t max_bytes = std::size_t(1)
-                                      << 32; ///< of an array: more is no frame of ours
+    constexpr std::size_t max_bytes = std::size_t(1) << 32; ///< limit of an array's size
 
     [[noreturn]] void
     refuse(const fs::path &file, const std::string &why)
@@ -34,7 +33,7 @@ namespace Exemplar::Live
     text_of_file(const fs::path &file)
     {
       std::error_code none;
-      if (fs::exists(file, none) && !fs::is_regular_file(file, none)) // a pipe would be waited for
+      if (fs::exists(file, none) && !fs::is_regular_file(file, none)) // reading a pipe would block
         throw UserError(file.string() + " is no regular file. Give the output directory of a run.");
       std::string reason;
       if (auto text = read_text_file(file, &reason))
@@ -67,7 +66,7 @@ namespace Exemplar::Live
       }
     }
 
-    /// An array of a frame: in base64 its sizes, and then its bytes, compressed by zlib.
+    /// An array of a frame, in base64: its sizes, then its bytes, compressed by zlib.
     template <typename Number>
     std::vector<Number>
     array_in(const fs::path &file, const std::string &text, const std::string &name)
@@ -75,7 +74,7 @@ namespace Exemplar::Live
       const auto            where = text.find(" Name=\"" + name + "\"");
       const auto            begin = where == std::string::npos ? where : text.find('>', where);
       const auto            end   = begin == std::string::npos ? begin : text.find('<', begin);
-      constexpr std::size_t sizes_in_text = 44; // 32 bytes
+      constexpr std::size_t sizes_in_text = 44; // base64 of 32 bytes
       if (end == std::string::npos || end - begin - 1 < sizes_in_text)
         refuse(file, "it has no array " + name);
       const auto sizes      = decoded(file, name, text.substr(begin + 1, sizes_in_text));
@@ -85,7 +84,8 @@ namespace Exemplar::Live
       if (sizes.size() < 2 * sizeof(n_bytes))
         refuse(file, "its array " + name + " is damaged");
       std::memcpy(&n_bytes, sizes.data() + sizeof(n_bytes), sizeof(n_bytes));
-      // zlib makes at most some thousand bytes of one, so that a damaged size takes no memory
+      // zlib expands by a factor of about 1000 at most, so that a damaged size cannot exhaust
+      // memory
       if (n_bytes > max_bytes || n_bytes > 1100 * compressed.size()
           || n_bytes % sizeof(Number) != 0)
         refuse(file, "its array " + name + " has another size than it says");
@@ -102,7 +102,7 @@ namespace Exemplar::Live
     using Face = std::array<unsigned int, 3>;
     using Cell = std::array<unsigned int, 4>;
 
-    /// Its corners, which are different points of the frame.
+    /// The corners of a cell, which are different points of the frame.
     Cell
     cell_at(const fs::path                  &file,
             const std::vector<std::int32_t> &connectivity,
@@ -168,7 +168,7 @@ namespace Exemplar::Live
     if (places.empty() || places.size() % 3 != 0)
       refuse(file, "it has no points");
     for (const double place : places)
-      if (!(std::abs(place) < 1e30)) // of what can be drawn
+      if (!(std::abs(place) < 1e30)) // limit of what can be drawn
         refuse(file, "a point has no finite place");
     return places;
   }
@@ -187,7 +187,7 @@ namespace Exemplar::Live
       if (end < 0 || std::size_t(end) < begin + 4 || std::size_t(end) > connectivity.size())
         refuse(file, "a cell has fewer than four nodes");
       const Cell cell = cell_at(file, connectivity, begin, n_points);
-      // of a tetrahedron that is positively oriented
+      // faces of a positively oriented tetrahedron
       for (const Face &face :
            { Face{ { cell[0], cell[2], cell[1] } }, Face{ { cell[0], cell[1], cell[3] } },
              Face{ { cell[1], cell[2], cell[3] } }, Face{ { cell[0], cell[3], cell[2] } } })

@@ -24,9 +24,9 @@ namespace Exemplar::Live
   namespace
   {
     constexpr unsigned int max_connections = 64, max_requests = 200;
-    constexpr auto max_wait = std::chrono::seconds(10); ///< for a request, or a part of an answer
+    constexpr auto max_wait = std::chrono::seconds(10); ///< for a request or a part of an answer
 
-    /// One that asks for pages, until it goes or becomes a viewer.
+    /// An HTTP connection, until it closes or becomes a viewer.
     class Connection : public std::enable_shared_from_this<Connection>
     {
     public:
@@ -81,7 +81,7 @@ namespace Exemplar::Live
         write_next();
       }
 
-      /// A part at a time, as a slow line may take long for all, but must not be silent for long.
+      /// Sends a part at a time, with a time limit for each, as a slow line may take long for all.
       void
       write_next()
       {
@@ -105,11 +105,11 @@ namespace Exemplar::Live
       beast::flat_buffer                                          buffer{ 16384 };
       std::optional<http::request_parser<http::string_body>>      parser;
       Response                                                    response;
-      std::optional<http::response_serializer<http::string_body>> serializer; ///< of it
+      std::optional<http::response_serializer<http::string_body>> serializer; ///< of the response
       unsigned int                                                n_requests = 0;
     };
 
-    /// Counts down when it goes.
+    /// A token that is counted while it lives.
     std::shared_ptr<void>
     counted(const std::shared_ptr<unsigned int> &count)
     {
@@ -119,14 +119,14 @@ namespace Exemplar::Live
 
     const std::string unix_prefix = "unix:";
 
-    /// Whether a socket of the file system is one that a killed server has left: nobody listens there.
+    /// Whether a socket of the file system was left by a killed server: nobody listens there.
     bool
     is_left_over(const std::string &path)
     {
       const asio::local::stream_protocol::endpoint endpoint(path);
       asio::io_context                             context;
       asio::local::stream_protocol::socket         socket(context, endpoint.protocol());
-      socket.non_blocking(true); // one that is full is answered, too
+      socket.non_blocking(true); // a full queue answers at once, too
       beast::error_code error;
       socket.connect(endpoint, error);
       return error == asio::error::connection_refused;
@@ -191,7 +191,7 @@ namespace Exemplar::Live
       const asio::local::stream_protocol::endpoint endpoint(path);
       unlink(path.c_str());
       acceptor.open(endpoint.protocol());
-      const mode_t before = umask(0177); // for its owner alone
+      const mode_t before = umask(0177); // access for the owner alone
       acceptor.bind(endpoint);
       umask(before);
       socket_file = path;
@@ -244,7 +244,7 @@ namespace Exemplar::Live
             audience.get_log().refuse("one connection more than may be");
           if (!error)
             return accept_next();
-          // no descriptors are left, say
+          // for instance without free descriptors
           auto timer
               = std::make_shared<asio::steady_timer>(context, std::chrono::milliseconds(100));
           timer->async_wait([this, timer](const beast::error_code) { accept_next(); });
@@ -256,7 +256,7 @@ namespace Exemplar::Live
   {
     context.run();
     signals.cancel();
-    signals.clear();    // a second one ends the program where a step is long
-    audience.dismiss(); // whose sockets must not outlive the context
+    signals.clear();    // a second signal ends the program during a long step
+    audience.dismiss(); // viewers' sockets must not outlive the context
   }
 } // namespace Exemplar::Live

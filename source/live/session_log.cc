@@ -55,10 +55,10 @@ namespace Exemplar::Live
   SessionLog::for_each(const std::function<void(const SessionEvent &)> &action)
   {
     flush();
-    // by its descriptor, as it may have no name
+    // opened by its descriptor, as it may have no name
     std::ifstream lines("/proc/self/fd/" + std::to_string(fileno(file.get())));
     std::string   line;
-    if (!std::getline(lines, line)) // the head
+    if (!std::getline(lines, line)) // the head is not an event
       throw std::runtime_error(name + " cannot be read.");
     while (std::getline(lines, line))
       action(event_of_line(line, name));

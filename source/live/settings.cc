@@ -25,7 +25,7 @@ namespace Exemplar::Live
         result.varies = result.varies || number != first;
       }
       if (!result.varies)
-        result.mean = first; // to the last digit
+        result.mean = first; // exact to the last digit
       return result;
     }
   } // namespace

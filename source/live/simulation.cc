@@ -10,14 +10,14 @@ namespace Exemplar::Live
 {
   namespace
   {
-    /// The colour that tells how far the body is from a pose.
+    /// The name of the colouring by the distance from a pose.
     std::string
     name_of_pose(const unsigned int pose)
     {
       return fmt::format("pose {}", pose);
     }
 
-    /// Distances from a pose, which is moved to where the body is.
+    /// Distances of the vertices from a pose that is translated to the mean place of the body.
     std::vector<double>
     distances(const Vector &positions, const Vector &pose, const BodySurface &surface)
     {
@@ -83,7 +83,7 @@ namespace Exemplar::Live
   void
   Simulation::obey(const Command &command)
   {
-    state_is_new = state_is_new || command.type != "move"; // a refusal, too, as sliders have moved
+    state_is_new = state_is_new || command.type != "move"; // even if refused, as sliders have moved
     try
     {
       if (command.type == "pause")
@@ -111,7 +111,7 @@ namespace Exemplar::Live
     {
       tell("refused", command.type + ": " + refusal.what());
     }
-    catch (const SolverFailure &failure) // with the body perhaps changed by half
+    catch (const SolverFailure &failure) // the body may be partly changed
     {
       begin_anew();
       tell("warning", std::string(failure.what()) + " The body is at its beginning again.");
@@ -167,7 +167,7 @@ namespace Exemplar::Live
       if (!is_success(shown.report.status))
         failure = stage.get_problem().failure_message(shown.report);
     }
-    catch (const UserError &error) // of handles that disagree, say
+    catch (const UserError &error) // for instance handles that disagree
     {
       failure = error.what();
     }

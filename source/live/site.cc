@@ -22,7 +22,8 @@ namespace Exemplar::Live
       return { value.data(), value.size() };
     }
 
-    /// Scripts and styles come from here alone, and the page can talk to nobody else.
+    /// The Content-Security-Policy: scripts and styles come from this server alone, and the page
+    /// connects to no other.
     std::string
     content_policy(const std::string &host, const std::string &sources)
     {
@@ -46,7 +47,7 @@ namespace Exemplar::Live
     redirect_with_cookie(const Request &request, const Access &access)
     {
       Response response = text_response(request, http::status::see_other, "");
-      response.set(http::field::location, "./"); // without the token
+      response.set(http::field::location, "./"); // address without the token
       response.set(http::field::set_cookie, access.cookie_to_set());
       return response;
     }

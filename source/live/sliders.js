@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What of the body can be set. The number beside a slider is the one in force, as the server says.
+// Sliders of the body's settings. The number beside a slider is the one in force, as the server says.
 import { Latest } from "./latest.js";
 import { round, short, withUnit } from "./words.js";
 

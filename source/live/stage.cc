@@ -24,7 +24,8 @@ namespace Exemplar::Live
       return parameters;
     }
 
-    /// Do what was possible before: if it is refused now, nothing is left to pull, and the server ends.
+    /// Repeat an action that was possible before: if it is refused now, no body is left, and the
+    /// server ends.
     template <typename Action>
     void
     end_if_refused(const Action &action)
@@ -37,7 +38,7 @@ namespace Exemplar::Live
       {
         throw std::runtime_error(error.what());
       }
-      catch (const std::filesystem::filesystem_error &error) // of a recording that was moved, say
+      catch (const std::filesystem::filesystem_error &error) // for instance a moved recording
       {
         throw std::runtime_error(trouble_with_path(error) + ".");
       }
@@ -70,7 +71,7 @@ namespace Exemplar::Live
     {
       recording->take();
       keys    = kept->copy_to(recording->get_directory(),
-                              contents); // before anything is moved, as it may fail
+                              contents); // first, as it may fail
       earlier = recording->set_aside();
     }
     begin_recording();
@@ -80,7 +81,7 @@ namespace Exemplar::Live
   void
   Stage::begin_recording()
   {
-    done.reset(); // which has an earlier one open
+    done.reset(); // it has an earlier file open
     done.emplace(recording ? recording->session_file() : std::filesystem::path());
     if (recording)
       recording->save_scene(keys);
@@ -97,7 +98,7 @@ namespace Exemplar::Live
   Stage::make_problem_anew()
   {
     player.reset();
-    problem.reset(); // before the next, for its memory
+    problem.reset(); // frees its memory before the next is made
     end_if_refused(
         [this]
         {
@@ -149,7 +150,7 @@ namespace Exemplar::Live
     const Moment moment = std::move(moments.back());
     moments.pop_back();
     if (recording)
-      recording->set_n_steps(moment.state.step); // before the events of later ones go
+      recording->set_n_steps(moment.state.step); // before later events are removed
     done->cut(moment.done);
     make_problem_anew();
     end_if_refused(
@@ -191,7 +192,7 @@ namespace Exemplar::Live
   {
     if (!recording)
       return;
-    done->flush(); // before the scene plays the step that it leads to
+    done->flush(); // before the scene has the step that they lead to
     recording->set_n_steps(problem->state.step);
   }
 } // namespace Exemplar::Live

@@ -21,7 +21,7 @@ namespace Exemplar::Live
       bytes.append(reinterpret_cast<const char *>(&value), sizeof(value));
     }
 
-    /// Least and greatest of a coordinate.
+    /// Least and greatest value of a coordinate.
     struct Range
     {
       double min = std::numeric_limits<double>::infinity(), max = -min;
@@ -49,7 +49,7 @@ namespace Exemplar::Live
       for (const unsigned int node : surface.nodes)
         for (unsigned int c = 0; c < 3; ++c)
         {
-          // by what viewers know of the box, which is in single precision
+          // viewers know the box in single precision
           const double min  = static_cast<float>(box[c].min),
                        size = static_cast<float>(box[c].size());
           const double part = size > 0. ? (positions[3 * node + c] - min) / size : 0.5;
@@ -142,7 +142,7 @@ namespace Exemplar::Live
       largest  = std::max(largest, along.size());
       farthest = std::max({ farthest, std::abs(along.min), std::abs(along.max) });
     }
-    // half of an integer's step; and the box is in single precision
+    // half of a quantization step, plus rounding of the box to single precision
     return largest / (4. * max_short) + 2. * farthest * std::numeric_limits<float>::epsilon();
   }
 

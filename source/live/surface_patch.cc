@@ -8,7 +8,7 @@ namespace Exemplar::Live
 {
   namespace
   {
-    /// The radius is this many times the distance of the farthest corner of the triangle, at least.
+    /// Least ratio of the radius and the distance to the farthest corner of the triangle.
     constexpr double min_radius_over_corner = 1.5;
 
     dealii::Point<3>
@@ -18,7 +18,7 @@ namespace Exemplar::Live
       return { positions[dof], positions[dof + 1], positions[dof + 2] };
     }
 
-    /// Which vertices are reached from a triangle over triangles with vertices that are all near.
+    /// The corners of a triangle and all vertices connected with them by edges to near vertices.
     std::vector<bool>
     reached(const unsigned int begin, const BodySurface &surface, const std::vector<bool> &is_near)
     {
@@ -38,7 +38,7 @@ namespace Exemplar::Live
       return is_reached;
     }
 
-    /// A third of each triangle's area for each of its corners [m^2].
+    /// The area of each vertex: a third of each triangle at it [m^2].
     std::vector<double>
     areas(const BodySurface &surface, const Vector &positions)
     {

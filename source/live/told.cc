@@ -16,10 +16,10 @@ namespace Exemplar::Live
   {
     using Json = nlohmann::json;
 
-    /// With this a state begins, so that it is known without being parsed.
+    /// The beginning of a state's text, by which it is recognised without being parsed.
     constexpr std::string_view begin_of_state = R"({"type":"state",)";
 
-    /// Other bytes than UTF-8, in names, are replaced.
+    /// JSON as text; bytes in names that are not UTF-8 are replaced.
     std::string
     text_of(const Json &json)
     {
@@ -68,7 +68,7 @@ namespace Exemplar::Live
       return bounds;
     }
 
-    /// Handles that were dragged, and how far.
+    /// Handles that were dragged, with their displacements [m].
     Json
     shifts_of(const Hand &hand)
     {
@@ -87,7 +87,8 @@ namespace Exemplar::Live
       return list;
     }
 
-    /// Those of sliders, one an example; of the first region, as all have the same.
+    /// The target weights of the sliders, one for each example: those of the first region, as all
+    /// have the same.
     Json
     wanted_weights(const Problem &problem, const Hand &hand)
     {
@@ -107,7 +108,7 @@ namespace Exemplar::Live
                { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } } };
     }
 
-    /// Settings that are means, as cells have several of them.
+    /// Names of the settings whose values are means over different cells.
     Json
     means_of(const NumberOfCells &young, const NumberOfCells &poisson)
     {
@@ -164,7 +165,7 @@ namespace Exemplar::Live
                                   { "weights_wanted", wanted_weights(problem, hand) },
                                   { "handles", shifts_of(hand) },
                                   { "pins", pins_of(hand, surface) } };
-    return std::string(begin_of_state) + text_of(state).substr(1); // after its brace
+    return std::string(begin_of_state) + text_of(state).substr(1); // without its brace
   }
 
   bool

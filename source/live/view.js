@@ -114,7 +114,7 @@ export class View {
     return caster;
   }
 
-  // What of the body is seen there; null: nothing.
+  // The first point of the body on a ray through a place of the window; null: none.
   pick(event) {
     return this.body && this.hasPlace ? this.body.hit(this.ray(event)) : null;
   }

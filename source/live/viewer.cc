@@ -24,7 +24,7 @@ namespace Exemplar::Live
   Viewer::Viewer(Stream stream, Audience &audience, std::shared_ptr<void> connection)
       : socket(std::move(stream)), audience(audience), connection(std::move(connection))
   {
-    beast::get_lowest_layer(socket).expires_never(); // the WebSocket has times of its own
+    beast::get_lowest_layer(socket).expires_never(); // the WebSocket has its own timeouts
     auto times              = websocket::stream_base::timeout::suggested(beast::role_type::server);
     times.handshake_timeout = std::chrono::seconds(10);
     times.idle_timeout      = std::chrono::seconds(60);
@@ -63,7 +63,7 @@ namespace Exemplar::Live
           if (error)
             return self->end();
           if (self->is_closing)
-            return self->read_next(); // until the other one has closed, too
+            return self->read_next(); // until the other side has closed, too
           if (!self->socket.got_text())
           {
             self->audience.get_log().refuse("a message that is no text");
@@ -80,7 +80,7 @@ namespace Exemplar::Live
   {
     if (!is_open || is_closing)
       return;
-    if (queue.size() >= max_queue) // it does not read
+    if (queue.size() >= max_queue) // the other side does not read
     {
       audience.get_log().refuse("a viewer that does not read");
       return end();

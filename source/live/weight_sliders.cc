@@ -10,7 +10,7 @@ namespace Exemplar::Live
 {
   namespace
   {
-    /// How fast weights follow their sliders [1/s].
+    /// Greatest speed with which weights follow their sliders [1/s].
     constexpr double speed = 3.;
 
     SessionEvent

@@ -3,14 +3,14 @@
 
 const PREFIXES = [[1e9, "G"], [1e6, "M"], [1e3, "k"], [1, ""], [1e-3, "m"]];
 
-// With four digits, and none that says nothing.
+// A number with four digits, without trailing zeros.
 export function short(x) {
   const rounded = Number(x.toPrecision(4));
   const size = Math.abs(rounded);
   return size !== 0 && (size >= 1e5 || size < 1e-3) ? rounded.toExponential().replace("e+", "e") : String(rounded);
 }
 
-// 1.25 MPa, say.
+// A number with a prefixed unit, such as 1.25 MPa.
 export function withUnit(x, unit) {
   const [size, prefix] = PREFIXES.find(([least]) => Math.abs(x) >= least) || [1, ""];
   return `${short(x / size)} ${prefix}${unit}`;
@@ -19,7 +19,7 @@ export function withUnit(x, unit) {
 // The nearest number with two digits.
 export const round = (x) => Number(x.toPrecision(2));
 
-// How time goes, for who has never heard of a frame.
+// The pace of the simulation, for users who have never heard of a frame.
 export function speedWords(isPaused, rate) {
   if (isPaused)
     return "paused";

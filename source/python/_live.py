@@ -10,7 +10,7 @@ from typing import Callable, Optional, Union
 
 from exemplar import UserError
 
-Record = Optional[Union[str, "os.PathLike[str]"]]  # where the session is kept
+Record = Optional[Union[str, "os.PathLike[str]"]]  # directory in which the session is kept
 
 
 def program() -> str:

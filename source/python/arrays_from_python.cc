@@ -19,7 +19,8 @@ namespace Exemplar::Python
   {
     using Cells = std::vector<std::array<unsigned int, 4>>;
 
-    /// numpy would take the real parts alone, what a mask covers, texts of digits and truths.
+    /// Whether an array has real numbers. numpy would also convert complex numbers (to their real
+    /// parts), texts of digits and booleans.
     bool
     has_real_numbers(const py::array &array)
     {
@@ -71,7 +72,7 @@ namespace Exemplar::Python
                         "of edges.");
     }
 
-    /// Refuses what is negative, which would become large.
+    /// An index as unsigned int. Refuses negative numbers, which would become large.
     unsigned int
     index_of(const long long value, const std::string &what)
     {
@@ -82,7 +83,7 @@ namespace Exemplar::Python
       return static_cast<unsigned int>(value);
     }
 
-    /// Of an array of integers.
+    /// The indices in an array of integers.
     std::vector<unsigned int>
     indices_of(const py::array &array, const std::string &what)
     {
@@ -171,7 +172,7 @@ namespace Exemplar::Python
                                         c, cells[c][v]));
     }
 
-    /// What else `mesh` may be by mistake, and how that is handed in.
+    /// A hint for what `mesh` is by mistake, and how to hand that in.
     std::string
     remedy_for_mesh(const py::object &mesh)
     {
@@ -235,7 +236,7 @@ namespace Exemplar::Python
   real_number_of(const py::handle &object, const std::string &what)
   {
     const auto any = py::array::ensure(object);
-    // numpy would give the real part of a complex one, and read a text
+    // numpy would convert a complex number to its real part, and parse a text
     const bool   may_be_one = !any || std::strchr("fiubO", any.dtype().kind()) != nullptr;
     const double number     = may_be_one ? PyFloat_AsDouble(object.ptr()) : 0.;
     if (may_be_one && PyErr_Occurred() == nullptr)
@@ -318,7 +319,7 @@ namespace Exemplar::Python
       material_ids = material_ids_of(parts[2]);
     MshFile msh = make_msh(points_of(parts[0], "mesh: nodes"), cells, material_ids);
     for (MshElement &element : msh.elements)
-      --element.number; // of its cell
+      --element.number; // number of its cell
     refuse_repeated_nodes(cells);
     refuse_unused_nodes(cells, msh.nodes.size());
     refuse_repeated_cells(cells);

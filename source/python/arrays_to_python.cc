@@ -55,7 +55,7 @@ namespace Exemplar::Python
                                        array_of(std::move(matrix.row_start), { n + 1 }));
     py::object sparse
         = scipy("scipy.sparse").attr("csr_array")(parts, py::arg("shape") = py::make_tuple(n, n));
-    sparse.attr("has_canonical_format") = true; // which scipy would look for
+    sparse.attr("has_canonical_format") = true; // scipy would search for duplicates otherwise
     return sparse;
   }
 } // namespace Exemplar::Python

@@ -13,7 +13,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// Whoever writes to it would change nothing.
+    /// The array made read-only, as writing to it would change nothing.
     py::array
     read_only(py::array array)
     {
@@ -21,7 +21,7 @@ namespace Exemplar::Python
       return array;
     }
 
-    /// number(cell) of all cells.
+    /// An array of number(cell) for all cells.
     template <typename Function>
     py::array
     by_cell(const HeldProblem &held, const Function &number)
@@ -96,7 +96,7 @@ namespace Exemplar::Python
                      });
     }
 
-    /// What each holds now.
+    /// The nodes that each handle holds now.
     py::dict
     handles(const HeldProblem &held)
     {
@@ -131,7 +131,7 @@ namespace Exemplar::Python
                                           : "interpolation";
     }
 
-    /// While another thread makes a step there is nothing to look at.
+    /// repr(problem); while another thread makes a step, it says no more than that.
     std::string
     representation(const HeldProblem &held)
     {

@@ -21,14 +21,14 @@ namespace Exemplar::Python
       std::vector<double> numbers
           = n == 0 ? std::vector<double>() : numbers_of(object, what + ": weights", py::ssize_t(n));
       if (numbers.size() != n
-          || py::array::ensure(object).size() != static_cast<py::ssize_t>(n)) // one for all
+          || py::array::ensure(object).size() != static_cast<py::ssize_t>(n)) // one number for all
         throw UserError(fmt::format(
             "{}: weights must be an array of shape ({},), as problem.weights, but is {}.", what, n,
             description(object)));
       return numbers;
     }
 
-    /// None is what the state has.
+    /// The place to evaluate at; None stands for the value of the state.
     Place
     place_of(const HeldProblem &held,
              const py::object  &positions,
@@ -131,7 +131,7 @@ namespace Exemplar::Python
       return array_of(H);
     }
 
-    /// A - G P G^T.
+    /// The reduced Hessian A - G P G^T.
     py::object
     reduced_hessian(HeldProblem      &held,
                     const py::object &positions,

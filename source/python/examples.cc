@@ -13,7 +13,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// "Problem.step" of the module.
+    /// The object of a dotted name, such as "Problem.step", in the module.
     py::object
     member_of(const py::module_ &module, const std::string &name)
     {
@@ -24,7 +24,7 @@ namespace Exemplar::Python
       return outer.attr("__dict__")[name.substr(dot + 1).c_str()];
     }
 
-    /// The docstring of a function in C, which pybind11 frees by free().
+    /// Appends to the docstring of a function in C, which pybind11 frees by free().
     void
     append_to_function(PyObject *function, const std::string &text)
     {

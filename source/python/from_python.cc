@@ -13,7 +13,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// Where arrays are needed, as in `poses`.
+    /// Refuses a file name where arrays are needed, as in `poses`.
     void
     refuse_file_name(const py::handle &object, const std::string &what)
     {
@@ -77,7 +77,7 @@ namespace Exemplar::Python
     }
     catch (py::error_already_set &error)
     {
-      if (!error.matches(PyExc_TypeError) || error.trace()) // it has begun
+      if (!error.matches(PyExc_TypeError) || error.trace()) // raised inside of the function
         throw;
       throw py::type_error(std::string(py::str(error.value())) + ". " + usage);
     }

@@ -27,7 +27,7 @@ namespace Exemplar::Python
         if (const double energy = real_number_of(object, what); std::isfinite(energy))
           return energy;
       }
-      catch (const py::type_error &) // said below
+      catch (const py::type_error &) // reported below
       {
       }
       throw UserError(what + ": the energy must be a finite number [J], but is "

@@ -179,8 +179,8 @@ namespace Exemplar::Python
         return pairs.size() > n_before;
       }
 
-      /// The last answers are kept: that of the state, so that a step that fails by the function can be
-      /// taken back without it, and that of the place that was asked for last.
+      /// The answer at a place. Two are kept: that of the state, so that a step in which the
+      /// function fails can be taken back without it, and that of the last place.
       const FunctionAnswer &
       ask(const Vector &positions, const double at_time)
       {

@@ -48,7 +48,7 @@ namespace Exemplar::Python
       return;
     std::vector<std::string> found = next_step_warnings(*problem);
     is_warned_of_motions           = !found.empty();
-    found.erase(std::remove_if(found.begin(), found.end(), // of a handle that a formula moves
+    found.erase(std::remove_if(found.begin(), found.end(), // known ones, of formulas
                                [this](const std::string &warning) {
                                  return std::count(warnings.begin(), warnings.end(), warning) > 0;
                                }),

@@ -39,7 +39,7 @@ namespace Exemplar::Python
       }
     }
 
-    /// MPI cannot start twice, so that it ends with the process.
+    /// The session of MPI, which lasts until the process ends, as MPI cannot start twice.
     std::shared_ptr<MpiSession>
     mpi_session()
     {
@@ -59,7 +59,7 @@ namespace Exemplar::Python
       return { make_unlocked(std::move(given)).release(), end_last };
     }
 
-    /// Surfaces that a handle follows are read when a step needs them.
+    /// Whether a step may read files: surfaces that a handle follows are read when needed.
     bool
     reads_while_it_steps(const Problem &problem)
     {
@@ -69,7 +69,7 @@ namespace Exemplar::Python
                          { return !handle.follow_cache.empty(); });
     }
 
-    /// While it lives, the problem is this thread's.
+    /// Marks the problem as stepped by this thread while it lives.
     class Stepping
     {
     public:
@@ -146,7 +146,7 @@ namespace Exemplar::Python
     UnlockedWork::check();
     if (functions.callback.is_none())
       return true;
-    const py::object function = functions.callback; // which it may replace
+    const py::object function = functions.callback; // a copy, as the call may replace it
     is_stopped
         = is_stopped
           || call(function, py::make_tuple(iteration), "on_iteration calls function(report).")
@@ -157,7 +157,7 @@ namespace Exemplar::Python
   SolveReport
   HeldProblem::advance(const StepInterval &interval)
   {
-    const auto go_back = [this] // evaluation and memory are of the failed step
+    const auto go_back = [this] // evaluation and memory belong to the failed step
     { problem->resume_from(State(problem->state)); };
     try
     {
@@ -303,7 +303,7 @@ namespace Exemplar::Python
   {
     require_no_step("live()");
     for (const auto &[handle, function] : functions.motions)
-      if (function) // a name that is no handle's has none
+      if (function) // null for a name that is no handle's
         return "set_motion()";
     if (problem->get_changes().n > 0)
       return problem->get_changes().last;

@@ -9,7 +9,7 @@ namespace Exemplar::Python
   InputStamps::InputStamps(const SceneFile &scene)
   {
     for (const fs::path &file : scene.input_files())
-      stamps.emplace_back(fs::absolute(file), stamp_of(file)); // wherever Python goes
+      stamps.emplace_back(fs::absolute(file), stamp_of(file)); // Python may change its directory
   }
 
   std::vector<fs::path>

@@ -34,8 +34,8 @@ namespace Exemplar::Python
 {
   namespace
   {
-    /// When first used, pybind11 looks into numpy, which must be here: the import of a module lets
-    /// other threads run, and these would wait for ever for pybind11 and it for them.
+    /// Imports numpy beforehand: pybind11 would do so when first used, and the import of a module
+    /// lets other threads run, which could then deadlock with pybind11.
     void
     import_numpy()
     {
@@ -102,7 +102,7 @@ namespace Exemplar::Python
 
     using Class = ProblemClass;
 
-    /// What is wrong with the arguments of exemplar.Problem, by their names and number.
+    /// A message on wrong arguments of exemplar.Problem, by their names and number.
     std::string
     describe_arguments(const py::args &given, const py::kwargs &named)
     {
@@ -188,7 +188,7 @@ namespace Exemplar::Python
           {
             const std::vector<double> &weights = held.get().state.weights;
             py::array_t<double> copy(static_cast<py::ssize_t>(weights.size()), weights.data());
-            copy.attr("flags").attr("writeable") = false; // it would change nothing
+            copy.attr("flags").attr("writeable") = false; // writing would change nothing
             return copy;
           },
           "Weights of the examples, the rest pose first if it is one; of each region one after "
@@ -205,7 +205,7 @@ namespace Exemplar::Python
           "How many steps the scene has; step() makes more.");
     }
 
-    /// A type of dictionaries that say what they hold where a name is not among it.
+    /// A type of dictionaries whose KeyError lists the names that there are.
     py::object
     make_measures_type()
     {
@@ -263,7 +263,7 @@ namespace Exemplar::Python
                           "An elastic body with example poses, as a scene describes it.",
                           py::custom_type_setup(support_garbage_collection));
       py::options options;
-      options.disable_function_signatures(); // which would show what refuses other arguments
+      options.disable_function_signatures(); // they would show the overloads that refuse
       problem.def(
           py::init<const py::object &, const py::object &, const py::object &>(), py::arg("scene"),
           py::arg("mesh") = py::none(), py::arg("poses") = py::none(),

@@ -15,7 +15,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// As energies and messages call the terms, from 1.
+    /// The name of a term in energies and messages, numbered from 1.
     std::string
     name_of_term(const std::size_t number)
     {
@@ -65,7 +65,7 @@ namespace Exemplar::Python
     {
       const FunctionAnswer &at = answers_of(*problem->actions.own_terms[i++].term).of_state;
       if (term.is_checked || at.gradient.linfty_norm() == 0.)
-        continue; // one that does not act says nothing
+        continue; // a term that does not act tells nothing
       const std::string complaint = complaint_of_gradient({ term.function, name_of_term(i) }, at);
       if (!complaint.empty())
         throw UserError(complaint);
@@ -99,7 +99,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// A function, or the one of a term that was added, by its number.
+    /// The term of a function, or an added term by its number.
     NamedTerm
     term_of(HeldProblem &held, const py::object &object)
     {

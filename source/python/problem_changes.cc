@@ -67,7 +67,7 @@ namespace Exemplar::Python
       const bool          is_any = loads != nullptr && loads->nodal_forces().size() > 0;
       for (std::size_t dof = 0; dof < n; ++dof)
         memory[dof] = is_any ? loads->nodal_forces()[dof] : 0.;
-      forces.attr("flags").attr("writeable") = false; // it would change nothing
+      forces.attr("flags").attr("writeable") = false; // writing would change nothing
       return forces;
     }
 
@@ -127,7 +127,7 @@ namespace Exemplar::Python
             problem.change_handles([&](Handles &handles)
                                    { handles.grab(name, nodes, stay_here(problem, nodes)); });
             const Handles &handles = problem.constraints.handles;
-            for (unsigned int h = 0; h < handles.size(); ++h) // of quadratic ones not straight
+            for (unsigned int h = 0; h < handles.size(); ++h) // edges of quadratic cells may bend
               if (handles.name(h) == name)
                 problem.set_motion(name, stay_here(problem, handles.nodes(h)));
           });

@@ -15,7 +15,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// dJ/dx and dJ/dw; None is zero.
+    /// The direction (dJ/dx, dJ/dw); None stands for zero.
     Direction
     functional_of(const std::string &method,
                   const py::object  &by_positions,
@@ -26,7 +26,7 @@ namespace Exemplar::Python
                             std::vector<double>(problem.state.weights.size(), 0.) };
       if (!by_positions.is_none())
       {
-        // of the vertices alone, as problem.positions are, or of all nodes
+        // rows for the vertices alone, as problem.positions has them, or for all nodes
         const auto n_all = py::ssize_t(problem.body.fe_space.n_nodes());
         const auto n     = py::ssize_t(problem.body.mesh.n_nodes());
         const auto rows  = points_of(by_positions, method + ": dJ_dx",
@@ -114,7 +114,7 @@ namespace Exemplar::Python
       throw UserError(fmt::format("{} must be an array of shape ({},), one number for each of "
                                   "problem.weights, but is {}.",
                                   what, n, description(array)));
-    numbers_of(array, what, py::ssize_t(n)); // or it throws
+    numbers_of(array, what, py::ssize_t(n)); // throws if it does not fit
   }
 
   namespace

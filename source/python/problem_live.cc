@@ -14,7 +14,8 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// The page begins as the scene does: what a scene's text cannot say would be missing.
+    /// Refuses a problem that the text of its scene does not describe, as the page begins from
+    /// that.
     void
     require_scene_says_all(const HeldProblem &held)
     {
@@ -49,10 +50,10 @@ namespace Exemplar::Python
       return places;
     }
 
-    /// A file instead of an array of poses=.
+    /// A file written in place of an array of poses=.
     struct PoseFile
     {
-      std::string name; ///< of the array, as the scene has it
+      std::string name; ///< name of the array in the scene
       std::string file;
     };
 
@@ -82,8 +83,8 @@ namespace Exemplar::Python
       return text;
     }
 
-    /// Write the scene of a problem that is as it was made, for another program; and into a directory what
-    /// stands for arrays.
+    /// Write the scene of an unchanged problem for another program, and the files that replace
+    /// arrays into a directory.
     void
     write_scene(const HeldProblem &held, const fs::path &file, const fs::path &directory)
     {
@@ -98,7 +99,7 @@ namespace Exemplar::Python
             ->value;
       };
       const auto poses = write_poses(problem, source, directory);
-      for (DeclaredKey &key : keys) // of handles that follow a pose, say
+      for (DeclaredKey &key : keys) // such as those of handles that follow a pose
         for (const PoseFile &pose : poses)
           if (key.value == pose.name)
             key.value = pose.file;

@@ -16,7 +16,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// Numbers of a state, which nobody changes, in the memory of its Python object.
+    /// A read-only array of numbers of a state, in the memory of its Python object.
     py::array
     shown(const py::object &owner, const double *numbers, std::vector<py::ssize_t> shape)
     {
@@ -45,7 +45,7 @@ namespace Exemplar::Python
       return shown(owner, numbers.data(), { py::ssize_t(numbers.size()) });
     }
 
-    /// A new field in place of one of the nodes.
+    /// Replaces a nodal field by an array.
     void
     replace_field(const py::object &rows, const std::string &what, Vector &field)
     {
@@ -79,7 +79,7 @@ namespace Exemplar::Python
              const py::object &step)
     {
       SavedState result = saved;
-      result.memory     = ""; // of steps that have not led here
+      result.memory     = ""; // it is of steps that did not lead here
       State &state      = result.state;
       replace_field(positions, "positions", state.positions);
       replace_field(velocities, "velocities", state.velocities);
@@ -170,7 +170,7 @@ namespace Exemplar::Python
       type.def("__copy__", [](const SavedState &saved) { return saved; });
       type.def("__deepcopy__", [](const SavedState &saved, const py::object &) { return saved; });
       type.def(py::pickle(&pickled, &unpickled));
-      // the same by all protocols: the oldest two have none of their own for it
+      // one way for all protocols: the oldest two have none of their own
       type.def("__reduce__",
                [](const py::object &self)
                {

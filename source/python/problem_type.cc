@@ -30,12 +30,12 @@ namespace Exemplar::Python
       void
       end_problem(PyObject *self)
       {
-        PyObject_GC_UnTrack(self); // before parts of it are gone
+        PyObject_GC_UnTrack(self); // before its parts are destroyed
         py::detail::pybind11_object_dealloc(self);
       }
     }
 
-    /// What Python's own setting of an attribute does, but a method that is set is told to be called.
+    /// __setattr__ as Python's own, but setting a method raises an error that tells to call it.
     void
     set_attribute(const py::object &problem, const py::str &name, const py::object &value)
     {

@@ -15,7 +15,7 @@ namespace Exemplar::Python
 {
   namespace
   {
-    /// A number that is another one if one of those that it was given is.
+    /// A hash of numbers: it changes if one of them does.
     class Digest
     {
     public:
@@ -40,7 +40,7 @@ namespace Exemplar::Python
       std::uint64_t value = 1;
     };
 
-    /// Of what a solver's memory depends on beside the state.
+    /// Digest of the settings, beside the state, that a solver's memory depends on.
     std::uint64_t
     settings_of(const Problem &problem)
     {
@@ -104,7 +104,7 @@ namespace Exemplar::Python
       const ExampleWeights &rule = problem.examples.weights;
       check_size("weights", weights.size(), rule.size());
       if (rule.n_unknown() == 0)
-        return; // those of the time are taken
+        return; // prescribed weights are taken instead
       const bool   is_bounded = problem.parameters.examples.weights == WeightRule::simplex;
       const double least      = *std::min_element(weights.begin(), weights.end());
       if (is_bounded && least < 0.)
@@ -161,7 +161,7 @@ namespace Exemplar::Python
     }
     catch (const boost::archive::archive_exception &)
     {
-      problem.resume_from(saved.state); // without it steps converge, too
+      problem.resume_from(saved.state); // without memory steps converge, too
     }
   }
 } // namespace Exemplar::Python

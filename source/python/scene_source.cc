@@ -25,7 +25,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// What separates the entries of a list in the text of a scene.
+    /// The separator of the entries of a list in the text of a scene.
     std::string
     separator(const std::vector<std::string> &path, const std::string &key)
     {
@@ -134,7 +134,8 @@ namespace Exemplar::Python
       return join(value, is_by_region ? " | " : separator(path, key), of_entry);
     }
 
-    /// Sections of a dictionary that name their subsections: who leaves out Names has listed all.
+    /// Adds the key Names to sections that list subsections: without it, the dictionary has listed
+    /// all.
     void
     add_names(const py::dict                 &section,
               const std::vector<std::string> &path,
@@ -150,7 +151,7 @@ namespace Exemplar::Python
       assignments.push_back({ path, "Names", names, "scene" });
     }
 
-    /// Of handles or loads, which need keys of their own.
+    /// Refuses a list as the value of handles or loads, which need keys of their own.
     void
     require_no_list_of_names(const py::handle               &value,
                              const std::vector<std::string> &path,
@@ -166,7 +167,7 @@ namespace Exemplar::Python
                         "and load: \"Handles\": {\"left\": {\"Select\": ...}}.");
     }
 
-    /// Sections that have keys of fixed names.
+    /// The sections that have keys of fixed names.
     std::vector<std::string>
     known_sections()
     {
@@ -178,7 +179,8 @@ namespace Exemplar::Python
       return names;
     }
 
-    /// One without keys, of which nothing else would say that there is none of this name.
+    /// Refuses a section or subsection of unknown name; one without keys would otherwise pass
+    /// unnoticed.
     void
     require_known_section(const std::vector<std::string> &path)
     {
@@ -233,8 +235,9 @@ namespace Exemplar::Python
       }
     }
 
-    /// Of a scene that was written for Python; `assignments` put the poses= that are given in place of
-    /// its own. Files are also read by the program, for which keys are that do nothing in Python.
+    /// The source of a scene given as a dictionary; `assignments` put the given poses= in place of
+    /// its own. Only here keys that do nothing in Python cause warnings: files are read by the
+    /// program, too.
     SceneSource
     source_of_dictionary(const py::dict                &scene,
                          const std::vector<Assignment> &assignments,
@@ -249,7 +252,7 @@ namespace Exemplar::Python
               + " does nothing in Python, where no files are written. Remove it, and "
                 "save what you need, such as problem.positions.");
         else if (has_mesh && (a.path() == "Mesh/File" || a.path() == "Mesh/Generator")
-                 && !is_surface_file(a.value)) // that may be the skin of the mesh
+                 && !is_surface_file(a.value)) // a surface may be the skin of the mesh
           source.warnings.push_back(a.path() + " = " + a.value
                                     + " does nothing, as mesh= is given, too. Remove one of them.");
         else if (!assignments.empty() && a.path() == "Examples/Poses")

@@ -11,7 +11,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// The arguments in the call that a docstring begins with, and whether it does.
+    /// Finds the arguments of the call that a docstring begins with; false if there is none.
     bool
     find_arguments(const std::string &doc, const std::string &name, std::string &arguments)
     {
@@ -24,8 +24,8 @@ namespace Exemplar::Python
       return true;
     }
 
-    /// Python makes __text_signature__ of what stands before "--" in the docstring of a function in
-    /// C, and hides it in __doc__. pybind11 frees docstrings by free().
+    /// Adds a signature to the docstring of a function in C. Python makes __text_signature__ of the
+    /// text before "--", and hides it in __doc__. pybind11 frees docstrings by free().
     void
     add_signature(PyObject *function, const std::string &self, const std::string &type)
     {

@@ -48,14 +48,15 @@ namespace Exemplar::Python
       return array;
     }
 
-    /// Where the entries of a sparse array are, and what they are.
+    /// Rows, columns and values of the entries of a sparse array.
     struct Triplets
     {
       std::vector<long long> rows, columns;
       std::vector<double>    values;
     };
 
-    /// Of each entry the row, of scipy's indptr. scipy itself reads beyond its arrays where it is wrong.
+    /// The row of each entry, from scipy's indptr, which is checked: scipy itself reads beyond its
+    /// arrays if it is wrong.
     std::vector<long long>
     rows_of(const Indices     &starts,
             const std::size_t  n,
@@ -92,7 +93,7 @@ namespace Exemplar::Python
                { values.data(), values.data() + rows.size() } };
     }
 
-    /// Of csr_array, and of csc_array what is its transpose: the matrix is symmetric.
+    /// Entries of a csr_array, or those of the transpose of a csc_array: the matrix is symmetric.
     Triplets
     of_compressed(const py::object &sparse, const std::size_t n, const std::string &what)
     {
@@ -116,7 +117,8 @@ namespace Exemplar::Python
       return triplets({ rows.data(), rows.data() + rows.size() }, columns, values);
     }
 
-    /// lil_array has lists, of whose lengths scipy makes arrays without looking whether they agree.
+    /// Refuses a lil_array whose lists of columns and of values differ in length, which scipy would
+    /// not notice.
     void
     require_equal_lists(const py::object &sparse, const std::size_t n, const std::string &what)
     {
@@ -185,7 +187,7 @@ namespace Exemplar::Python
     {
       std::vector<double> x(n), Hx(n, 0.), HTx(n, 0.), scale(n, 0.);
       for (std::size_t i = 0; i < n; ++i)
-        x[i] = 1.5 + std::sin(static_cast<double>(i)); // of no particular direction
+        x[i] = 1.5 + std::sin(static_cast<double>(i)); // a generic direction
       for (const MatrixEntry &entry : entries)
       {
         Hx[entry.row] += entry.value * x[entry.column];

@@ -9,7 +9,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// An array in memory that `owner` keeps.
+    /// A read-only array in memory that `owner` keeps.
     template <typename Number>
     py::array
     read_only_rows(const Number     *memory,
@@ -22,7 +22,7 @@ namespace Exemplar::Python
       return rows;
     }
 
-    /// An object that keeps what `pointer` shares.
+    /// A Python object that shares ownership with `pointer`.
     template <typename T>
     py::capsule
     keeper(std::shared_ptr<T> pointer)
@@ -56,7 +56,7 @@ namespace Exemplar::Python
   StateArrays::show(const Vector &field, std::shared_ptr<Shown> &shown, const bool in_step)
   {
     const std::size_t n_nodes = problem->body.mesh.n_nodes(); // without the middles of edges
-    if (in_step)                                              // which will free this memory
+    if (in_step)                                              // the step will free this memory
       return py::array_t<double>({ py::ssize_t(n_nodes), py::ssize_t(3) }, field.begin());
     if (shown == nullptr)
       shown = std::make_shared<Shown>();

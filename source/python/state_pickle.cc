@@ -17,7 +17,7 @@ namespace Exemplar::Python
 
   namespace
   {
-    /// The version and the state, in the seal's bytes both.
+    /// The serialized version and state, as bytes to be sealed.
     std::string
     bytes_of(const SavedState &saved)
     {
@@ -36,7 +36,7 @@ namespace Exemplar::Python
         boost::archive::binary_iarchive(bytes) >> saved;
       }
       catch (
-          const std::exception &error) // whole, but of a machine or a library that writes otherwise
+          const std::exception &error) // intact, but written by a machine or library that differs
       {
         throw UserError(fmt::format("The state was pickled by another build of exemplar {}, of "
                                     "which this one cannot read the bytes ({}). Keep arrays to "

@@ -12,7 +12,7 @@ namespace Exemplar::Python
   log_step(const Problem &problem, const SolveReport &report)
   {
     const py::dict modules = py::module_::import("sys").attr("modules");
-    if (!modules.contains("logging")) // then nobody listens
+    if (!modules.contains("logging")) // nobody listens
       return;
     const py::object logging = modules["logging"];
     const py::object logger  = logging.attr("getLogger")("exemplar");

@@ -15,8 +15,8 @@ namespace Exemplar::Python
 
   namespace
   {
-    constexpr double tolerance = 1e-4; ///< of slopes that should be equal, relative
-    constexpr double gross     = 0.1;  ///< likewise, where two calls of the function must do
+    constexpr double tolerance = 1e-4; ///< relative difference of equal slopes
+    constexpr double gross     = 0.1;  ///< likewise, for the check by two calls
 
     Vector
     times(const std::vector<MatrixEntry> &hessian, const Vector &x)
@@ -38,7 +38,7 @@ namespace Exemplar::Python
       return direction;
     }
 
-    /// How far the function is asked beside a place [m]: a hundred thousandth of the body.
+    /// Step length of the differences [m]: 1e-5 of the body's size.
     double
     distance(const Vector &positions)
     {
@@ -48,7 +48,7 @@ namespace Exemplar::Python
       return 1e-5 * (extent > 0. ? extent : 1.);
     }
 
-    /// The answers on both sides of a place along a direction, and the directional numbers there.
+    /// Answers on both sides of a place along a direction, and directional derivatives from them.
     class Line
     {
     public:
@@ -58,21 +58,22 @@ namespace Exemplar::Python
       {
       }
 
-      /// Of the energy, by its difference [N].
+      /// The slope of the energy, by central differences [N].
       double
       slope() const
       {
         return (after.energy - before.energy) / (2. * h);
       }
 
-      /// The same as the gradient has it.
+      /// The slope of the energy, by the gradient [N].
       double
       slope_by_gradient() const
       {
         return at.gradient * direction;
       }
 
-      /// By how much that changes on the way, in which the difference may lie, as at a kink.
+      /// The greatest change of the slope by the gradient over the step, within which the
+      /// difference may be off, as at a kink [N].
       double
       change_of_slope() const
       {
@@ -80,14 +81,14 @@ namespace Exemplar::Python
                         std::abs(before.gradient * direction - slope_by_gradient()));
       }
 
-      /// What rounding of the energies makes of a slope.
+      /// Rounding error of slope() [N].
       double
       rounding() const
       {
         return 1e-15 * (std::abs(after.energy) + std::abs(before.energy)) / h;
       }
 
-      /// Whether the slope of the energy is that of the gradient, to this tolerance.
+      /// Whether the slopes by energy and gradient agree, to this relative tolerance.
       bool
       has_slope_of_gradient(const double allowed) const
       {
@@ -96,7 +97,8 @@ namespace Exemplar::Python
                <= allowed * size + change_of_slope() + rounding();
       }
 
-      /// How far both are apart, relative; with the mean of the gradient on the way, by Simpson's rule.
+      /// Relative difference of the slopes by energy and gradient; the latter is the mean over the
+      /// step, by Simpson's rule.
       double
       error_of_gradient() const
       {
@@ -107,7 +109,7 @@ namespace Exemplar::Python
         return size > 0. ? std::abs(slope() - mean) / size : 0.;
       }
 
-      /// How far the Hessian's forces are from the difference of the gradients, relative.
+      /// Relative difference of Hessian times direction and difference quotient of the gradients.
       double
       error_of_hessian() const
       {
@@ -118,7 +120,8 @@ namespace Exemplar::Python
         return size > 0. ? error.linfty_norm() / size : 0.;
       }
 
-      /// Whether the Hessian is at least as stiff as the gradient: it may leave out what is not convex.
+      /// Whether the Hessian is at least as stiff as the gradient: it may leave out parts that are
+      /// not convex.
       bool
       is_stiff_enough() const
       {
@@ -137,7 +140,7 @@ namespace Exemplar::Python
         return answer_of(term.function, term.name, x, at.time);
       }
 
-      /// Of the gradients [N/m].
+      /// The central difference quotient of the gradients [N/m].
       Vector
       difference() const
       {
@@ -153,7 +156,7 @@ namespace Exemplar::Python
         return times(answer.hessian, direction) * direction;
       }
 
-      /// What rounding of the gradients makes of a force.
+      /// Rounding error of difference() [N/m].
       double
       noise() const
       {
@@ -161,8 +164,8 @@ namespace Exemplar::Python
       }
 
       const FunctionAnswer &at;
-      const Vector          direction; ///< of which the greatest component is 1
-      const double          h;         ///< how far it goes to both sides [m]
+      const Vector          direction; ///< scaled so that its greatest component is 1
+      const double          h;         ///< step to both sides [m]
       const FunctionAnswer  before, after;
     };
 
@@ -185,7 +188,7 @@ namespace Exemplar::Python
           is_opposite ? " The sign is wrong: the gradient is minus the force." : "");
     }
 
-    /// The curvature of the Hessian, the least that a power method finds, which is a Rayleigh quotient.
+    /// The least curvature of the Hessian that a power method finds: a Rayleigh quotient [N/m].
     double
     least_curvature(const std::vector<MatrixEntry> &hessian, const unsigned int n)
     {
@@ -212,7 +215,7 @@ namespace Exemplar::Python
         least           = std::min(least, Hx * x);
         x.sadd(bound, -1., Hx);
         if (!(x.l2_norm() > 1e-100 * bound))
-          break; // H is a number times one
+          break; // H is a multiple of the identity
       }
       return least;
     }
@@ -226,7 +229,7 @@ namespace Exemplar::Python
       return curvature < -1e-10 * size;
     }
 
-    /// Some directions that are of no particular one, and that of the gradient.
+    /// Some generic directions, and that of the gradient.
     std::vector<Vector>
     directions_of(const FunctionAnswer &at)
     {

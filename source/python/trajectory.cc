@@ -18,7 +18,7 @@ namespace Exemplar::Python
   {
     using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-    /// What a problem calls after each step. It does not keep the steps, which a trajectory does.
+    /// Callback after each step. It does not own the steps, which a trajectory does.
     struct Recorder
     {
       std::weak_ptr<RecordedSteps> steps;
@@ -79,7 +79,7 @@ namespace Exemplar::Python
     Trajectory
     record(HeldProblem &held)
     {
-      RecordedSteps known(held.get()); // or it throws
+      RecordedSteps known(held.get()); // throws if it is not made
       return { held.shared_from_this(), {} };
     }
 
@@ -112,7 +112,8 @@ namespace Exemplar::Python
                            });
     }
 
-    /// Of the vertices, (n, 3), in the memory of a step, which the array keeps.
+    /// The rows (n, 3) of a field at the vertices, in the memory of a step, which the array keeps
+    /// alive.
     py::array
     rows(const Trajectory &trajectory, const Vector &field)
     {
@@ -136,8 +137,8 @@ namespace Exemplar::Python
       return entries;
     }
 
-    /// The entries for the steps in a list of arrays and None; null where they are None. `check` throws
-    /// UserError for an array that is none for a step, named as in messages.
+    /// The entries for the steps in a list of arrays and None; null where they are None. `check`
+    /// throws UserError for an array that does not fit a step, which messages name.
     template <typename Check>
     std::vector<Numbers>
     arrays_of(const py::object  &list,

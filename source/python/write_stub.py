@@ -33,7 +33,7 @@ from exemplar._live import Live
 '''
 TERM = "Callable[[NDArray[np.float64], float], tuple[SupportsFloat, ArrayLike, object]]"
 
-# of arguments, by "name" or "function.name"
+# Types of arguments, by "name" or "function.name"
 ARGUMENTS = {
     "scene": "str | os.PathLike[str] | Mapping[str, Any]", "mesh": "Sequence[ArrayLike]", "poses": "Sequence[ArrayLike]",
     "name": "str", "kind": "str", "dt": "float", "time": "float", "i": "int", "step": "int", "port": "int", "record": "str | os.PathLike[str]",
@@ -47,11 +47,12 @@ ARGUMENTS = {
     "on_iteration.function": "Callable[[Report], object] | None",
 }
 
-# what a with statement and len() need, of the types that have it
+# methods for a with statement and len(), of the types that have them
 SPECIAL = {"__enter__": "def __enter__(self) -> {name}: ...", "__exit__": "def __exit__(self, *args: Any) -> None: ...",
            "__len__": "def __len__(self) -> int: ..."}
 
-# of properties that can be set; a checker that knows but one type of a property takes that of the value it has
+# types of properties that can be set; a checker that knows but one type of a property takes that of
+# the value it has
 SETTERS = {
     "state": "State", "gravity": "ArrayLike", "nodal_forces": "ArrayLike | None", "importance": "float", "mass_damping": "float",
     "stiffness_damping": "float",
@@ -88,7 +89,7 @@ def call_of(doc):
 
 def type_of_result(name):
     """The type by which a call's docstring names its result, such as "float", "Report", or the shape (n, 3) of an array."""
-    name = re.sub(r" \([\w, ]+\)$", "", name)  # of the shape
+    name = re.sub(r" \([\w, ]+\)$", "", name)  # without the shape
     if re.fullmatch(r"\([\w, ]+\)", name):
         return "NDArray[np.float64]"
     is_known = re.fullmatch(r"None|int|float|bool|str|Live|(dict|list)\[.*\]|(scipy|matplotlib|mpl_toolkits)\.[\w.]+", name) or hasattr(exemplar, name)

@@ -8,15 +8,15 @@
 
 namespace Exemplar::Live
 {
-  /// Who may look and pull. A stranger is a page of another site in the user's browser, or another user
-  /// of the machine: neither knows the token, which is in the address that the program prints, or the
-  /// cookie for which it is exchanged.
+  /// Access control of the server. A stranger is a page of another site in the user's browser, or
+  /// another user of the machine: neither knows the token, which is in the address that the program
+  /// prints, or the cookie for which it is exchanged.
   class Access
   {
   public:
-    /// `more_hosts` are names under which a proxy asks, beside those of this machine and of the address at which the
-    /// server listens, which may be empty. Throws UserError for what is no such name. Token and cookie are
-    /// drawn by the system; throws std::runtime_error if it has none to give.
+    /// `more_hosts` are host names of a proxy, allowed beside those of this machine and of the
+    /// address `listening`, which may be empty. Throws UserError for an invalid name. Token and
+    /// cookie are random bytes of the system; throws std::runtime_error if it has none to give.
     explicit Access(const std::vector<std::string> &more_hosts, const std::string &listening = "");
 
     const std::string &
@@ -25,13 +25,13 @@ namespace Exemplar::Live
       return token;
     }
 
-    /// The whole header line's value by which a browser takes the cookie. Its name has a random part, as
-    /// cookies know no ports: two servers of one machine would take each other's.
+    /// The value of a Set-Cookie header. The cookie's name has a random part, as cookies know no
+    /// ports: two servers of one machine would take each other's.
     std::string
     cookie_to_set() const;
 
-    /// Whether the value of a Host header is a name that is let in, with any port: tunnels change it.
-    /// Other names are those of sites that have been made to lead here.
+    /// Whether the value of a Host header is an allowed name, with any port, as tunnels change it.
+    /// Other names are those of sites that were made to resolve to this machine (DNS rebinding).
     bool
     knows_host(std::string_view host) const;
 
@@ -51,7 +51,7 @@ namespace Exemplar::Live
     const std::string        token, cookie_name, cookie_value;
   };
 
-  /// The value of a key in what follows the ? of an address; empty if it is not there.
+  /// The value of a key in the query of an address, after the ?; empty if it is not there.
   std::string_view
   value_in_query(std::string_view target, std::string_view key);
 } // namespace Exemplar::Live

@@ -7,7 +7,7 @@
 
 namespace Exemplar::Live
 {
-  /// Ends what std::fopen or std::tmpfile began.
+  /// Deleter that closes a file of std::fopen or std::tmpfile.
   struct CloseFile
   {
     void
@@ -17,7 +17,7 @@ namespace Exemplar::Live
     }
   };
 
-  /// A file that is closed with this; files of C, as only they may have no name.
+  /// An owned file of C's library, as only these can be without a name.
   using CFile = std::unique_ptr<std::FILE, CloseFile>;
 } // namespace Exemplar::Live
 

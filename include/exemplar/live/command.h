@@ -10,20 +10,22 @@
 
 namespace Exemplar::Live
 {
-  /// What a viewer asks of the simulation, as doc/live.md describes it; what a type does not need is empty.
+  /// A request of a viewer to the simulation, see doc/live.md; members that its type does not need
+  /// are empty.
   struct Command
   {
     std::string               type;
-    std::string               name     = {}; ///< of a spring, a pin, a handle or a number
+    std::string               name     = {}; ///< name of a spring, pin, handle or number
     std::vector<unsigned int> vertices = {}; ///< of the surface
     std::vector<double>       numbers  = {};
     unsigned int              triangle = 0; ///< of the surface
-    unsigned int              sequence = 0; ///< of the pointer, which frames give back
+    unsigned int              sequence = 0; ///< sequence number of the pointer, returned by frames
     bool                      on       = false;
   };
 
-  /// The command in the text of a message. Throws std::invalid_argument, in words for the viewer, for
-  /// what is none: types, names of numbers and counts are checked here, what depends on the body is not.
+  /// The command in the text of a message. Throws std::invalid_argument, in words for the viewer,
+  /// for an invalid one: types, names of numbers and counts are checked here, agreement with the
+  /// body is not.
   Command
   parse_command(std::string_view message);
 } // namespace Exemplar::Live

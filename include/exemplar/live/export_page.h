@@ -13,16 +13,16 @@ namespace Exemplar::Live
   {
     std::string html;
     std::size_t n_frames = 0;
-    double      error    = 0.; ///< how far a coordinate is from the run's, at most [m]
+    double      error    = 0.; ///< largest error of a coordinate [m]
   };
 
-  /// One page that needs no other file: the surfaces in motion, and plots of statistics.csv. Throws UserError for a
-  /// directory that is none of a finished run with frames in the format vtu.
+  /// A page that needs no other file: the surfaces in motion, and plots of statistics.csv. Throws
+  /// UserError for a directory that is not that of a finished run with frames in the format vtu.
   RunPage
   page_of_runs(const std::vector<std::string> &directories);
 
-  /// Write that page. Throws UserError, with nothing written, for what page_of_runs() refuses, and for a file that
-  /// stands there and is no such page.
+  /// Write page_of_runs() to a file. Throws UserError, with nothing written, where page_of_runs()
+  /// does, and for an existing file that is no such page.
   RunPage
   export_page(const std::vector<std::string> &directories, const std::filesystem::path &file);
 } // namespace Exemplar::Live

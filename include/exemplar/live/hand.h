@@ -13,42 +13,45 @@
 
 namespace Exemplar::Live
 {
-  /// What viewers ask for, said of the body: makes events of commands, and knows what is held by hand.
-  /// All functions throw std::invalid_argument, in words for the viewer, for what the body does not allow.
+  /// Translation of viewers' commands into events of the body, with the state of all that is held
+  /// by hand. All functions throw std::invalid_argument, in words for the viewer, for commands that
+  /// the body does not allow.
   class Hand
   {
   public:
-    /// What is pulled to where a pointer is. A pointer jumps, because it is told of a few times a second,
-    /// because the body is behind the clock, or because a hand was jerked; what is pulled does not.
+    /// A grip that follows a pointer smoothly. A pointer jumps, because its place is sent a few
+    /// times a second, because the body is behind the clock, or because a hand was jerked; the grip
+    /// does not.
     struct Pull
     {
-      std::string          moving, ending, of; ///< what its events are, and of what
-      dealii::Point<3>     from;               ///< where it counts from [m]
-      dealii::Point<3>     at, to;             ///< where it is, and where the pointer is [m]
-      dealii::Tensor<1, 3> way = {};           ///< that it went in the last step [m]
+      std::string          moving, ending, of; ///< kinds of its events, and their name
+      dealii::Point<3>     from;               ///< origin of its displacement [m]
+      dealii::Point<3>     at, to;             ///< place of the grip, place of the pointer [m]
+      dealii::Tensor<1, 3> way = {};           ///< displacement in the last step [m]
     };
 
-    /// What is held by hand, by the names that viewers gave.
+    /// All that is held by hand, by the names that viewers gave.
     struct Held
     {
       std::map<std::string, Pull>                      pulls, handles;
       std::map<std::string, std::vector<unsigned int>> pins; ///< nodes, ascending
       WeightSliders                                    weights;
-      double importance = 1.; ///< the last one with which the examples acted
+      double importance = 1.; ///< the last one above its lower bound
     };
 
-    /// Of a scene at its beginning; keeps a reference to `surface`.
+    /// Takes a problem at its beginning; keeps a reference to `surface`.
     Hand(const Problem &problem, const BodySurface &surface);
 
-    /// What is to be done at once. Throws for commands that are no hand's.
+    /// The events of a command that are to be done at once. Throws for commands that do not concern
+    /// the hand.
     Session
     events_of(const Command &command, const Problem &problem);
 
-    /// Let all that is pulled come nearer to its pointer, before the next step of the problem.
+    /// Moves all grips towards their pointers, before the next step of the problem.
     Session
     follow(const Problem &problem);
 
-    /// All that pulls is let go of; pins stay.
+    /// Releases all pulls; pins stay.
     Session
     let_go_of_all(const Problem &problem);
 
@@ -58,7 +61,7 @@ namespace Exemplar::Live
       return !held.pulls.empty();
     }
 
-    /// What the importance is, or was before the examples were put out of action.
+    /// The importance, or, while the examples are put out of action, the one before.
     double
     importance_with_examples(const Problem &problem) const;
 
@@ -74,21 +77,21 @@ namespace Exemplar::Live
       return held;
     }
 
-    /// As it was when get_held() was this.
+    /// Restores the state that get_held() returned.
     void
     restore(const Held &earlier)
     {
       held = earlier;
     }
 
-    /// Of a spring of strength 1 [N/m].
+    /// Stiffness of a spring of strength 1 [N/m].
     double
     unit_stiffness() const
     {
       return stiffness;
     }
 
-    /// Of the patch that a pull takes hold of, at rest [m].
+    /// Radius of the patch that a pull takes hold of, at rest [m].
     double
     grab_radius() const;
 
@@ -123,8 +126,8 @@ namespace Exemplar::Live
 
     const BodySurface &surface;
     const double       diameter, stiffness;
-    const double       max_way; ///< of a pull in a step [m]
-    const Vector       rest;    ///< positions [m]
+    const double       max_way; ///< largest displacement of a grip in a step [m]
+    const Vector       rest;    ///< rest positions [m]
     const Settings     settings;
     Held               held;
   };

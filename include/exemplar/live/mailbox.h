@@ -15,24 +15,24 @@ namespace Exemplar::Live
   class Mailbox
   {
   public:
-    /// Of several places of one pointer that nobody has seen yet, the newest wins. Returns whether there
-    /// was room.
+    /// Appends a command. Of several moves of one pointer that were not taken yet, only the newest
+    /// is kept. Returns whether there was room.
     bool
     put(Command command);
 
-    /// All commands, oldest first. If `waits`, not before there is one, viewers came or went, stop() was
-    /// called, or it is `until`.
+    /// Takes all commands, oldest first. If `waits`, blocks until there is one, viewers came or
+    /// went, stop() was called, or the time is `until`.
     std::vector<Command>
     take(bool waits, std::chrono::steady_clock::time_point until);
 
-    /// Nothing will be wanted any more.
+    /// Ends take(): the simulation is to stop.
     void
     stop();
 
     bool
     is_stopped() const;
 
-    /// How many viewers there are.
+    /// Sets the number of viewers.
     void
     set_n_viewers(unsigned int n);
 

@@ -6,16 +6,17 @@
 
 namespace Exemplar::Live
 {
-  /// When steps are due, so that simulated time goes as fast as the clock, or honestly slower.
+  /// The times at which steps are due, so that simulated time goes as fast as the clock, or slower
+  /// where steps take longer.
   class Pace
   {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// Steps of this length [s].
+    /// Takes the length of a step [s].
     explicit Pace(double step_size);
 
-    /// The next step is due now, as after a pause.
+    /// Makes the next step due now, as after a pause.
     void
     restart();
 
@@ -31,7 +32,7 @@ namespace Exemplar::Live
       return due;
     }
 
-    /// When a step began.
+    /// A time on the clock and on the processor.
     struct Moment
     {
       Clock::time_point time;
@@ -41,29 +42,29 @@ namespace Exemplar::Live
     static Moment
     now();
 
-    /// A step was made that took from `begin` until now. What is behind is caught up, but no more than a
-    /// tenth of a second of it.
+    /// Counts a step that took from `begin` until now. A delay is caught up with, but no more than
+    /// a tenth of a second of it, or one step if that is longer.
     void
     add_step(const Moment &begin);
 
-    /// How many steps should have been made that were not.
+    /// Number of steps that are overdue.
     double
     behind() const;
 
-    /// What statuses tell of the time since the last one.
+    /// Summary of the time since the last one, for statuses.
     struct Summary
     {
-      double rate;         ///< simulated over real time
-      double milliseconds; ///< a step, at most
-      double processor;    ///< the same, without the time in which others had the processor
-      double behind;       ///< steps, at most
+      double rate;         ///< simulated time over real time
+      double milliseconds; ///< longest step [ms]
+      double processor;    ///< longest step in processor time of this thread [ms]
+      double behind;       ///< greatest delay [steps]
     };
 
     /// Whether it is time for a status.
     bool
     wants_status() const;
 
-    /// Begins a new one.
+    /// The summary up to now; begins a new one.
     Summary
     summary();
 
@@ -72,7 +73,7 @@ namespace Exemplar::Live
     Clock::time_point     due, last_summary;
     unsigned int          n_steps = 0;                   ///< since then
     Clock::duration       longest_step{}, most_behind{}; ///< since then
-    double                most_processor = 0.;           ///< of a step since then [s]
+    double                most_processor = 0.;           ///< longest, since then [s]
   };
 } // namespace Exemplar::Live
 

@@ -6,7 +6,8 @@
 
 namespace Exemplar::Live
 {
-  /// The bytes of a file of ours, or of three.js as Debian has it. Throws UserError if it is missing.
+  /// The bytes of a file of exemplar's page, or of three.js in Debian's package. Throws UserError
+  /// if it is missing.
   std::string
   page_file(const std::string &name);
 

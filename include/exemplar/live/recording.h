@@ -14,17 +14,18 @@
 
 namespace Exemplar::Live
 {
-  /// A directory with a session on disk: session.txt, scene.prm, which plays it again to the same bytes, and copies of
-  /// the scene's inputs. An earlier session in it is kept as session_NNNN.txt and scene_NNNN.prm.
+  /// A directory with a session on disk: session.txt, scene.prm, which plays it again to the same
+  /// bytes, and copies of the scene's inputs. An earlier session in it is kept as session_NNNN.txt
+  /// and scene_NNNN.prm.
   class Recording
   {
   public:
-    /// Looks at the directory and changes nothing. Throws UserError unless it is empty but for meshes, can be made,
-    /// or holds an earlier recording.
+    /// Checks the directory and changes nothing. Throws UserError unless it can be made, is empty
+    /// but for meshes, or holds an earlier recording.
     Recording(std::filesystem::path directory, double step_size);
 
-    /// Makes the directory and keeps other servers out of it. To be called before all that follows. Throws UserError
-    /// if another one records there.
+    /// Makes the directory and keeps other servers out of it. To be called before all that follows.
+    /// Throws UserError if another one records there.
     void
     take();
 
@@ -34,23 +35,24 @@ namespace Exemplar::Live
       return directory;
     }
 
-    /// What SessionLog writes.
+    /// The file that SessionLog writes.
     std::filesystem::path
     session_file() const
     {
       return directory / "session.txt";
     }
 
-    /// Keeps what is recorded so far under names of its own; returns the scene that plays it, or an empty path if
-    /// nothing was done. SessionLog is to begin a new file after this, and save_scene() to be called.
+    /// Keeps what is recorded so far under names of its own; returns the scene that plays it, or an
+    /// empty path if nothing was done. SessionLog is to begin a new file after this, and
+    /// save_scene() to be called.
     std::filesystem::path
     set_aside();
 
-    /// Writes the scene, of no step yet. `keys` are those of the scene that is pulled.
+    /// Writes the scene, with no steps yet. `keys` are those of the scene that is simulated.
     void
     save_scene(std::vector<DeclaredKey> keys);
 
-    /// So many steps are played again.
+    /// Sets the number of steps that the scene plays.
     void
     set_n_steps(unsigned int n_steps);
 
@@ -67,10 +69,10 @@ namespace Exemplar::Live
 
     const std::filesystem::path  directory;
     const double                 step_size;
-    std::optional<DirectoryLock> lock; ///< of the directory
+    std::optional<DirectoryLock> lock; ///< lock of the directory
     unsigned int                 n_poses = 0;
-    std::unique_ptr<Descriptor>  scene;            ///< open scene.prm
-    std::size_t                  place_of_end = 0; ///< in it, of the value of Time/End [bytes]
+    std::unique_ptr<Descriptor>  scene;            ///< scene.prm, open
+    std::size_t                  place_of_end = 0; ///< offset of the value of Time/End [bytes]
   };
 } // namespace Exemplar::Live
 

@@ -16,15 +16,18 @@ namespace Exemplar::Live
     std::filesystem::path file;
   };
 
-  /// Of the animation in the output directory of a run. Throws UserError unless it has frames in the format vtu.
+  /// The frames of the animation in the output directory of a run. Throws UserError unless it has
+  /// frames in the format vtu.
   std::vector<RunFrame>
   frames_of_run(const std::filesystem::path &directory);
 
-  /// Places of the nodes, by coordinate [m]. Throws UserError for a file that no run has written.
+  /// Positions of the nodes in a frame, three coordinates each [m]. Throws UserError for a file
+  /// that no run has written.
   std::vector<double>
   places_in(const std::filesystem::path &file);
 
-  /// The boundary of the cells in a frame: of each triangle its nodes, outwards.
+  /// The boundary of the cells in a frame: the three nodes of each triangle, counterclockwise from
+  /// outside.
   std::vector<std::array<unsigned int, 3>>
   boundary_in(const std::filesystem::path &file);
 } // namespace Exemplar::Live

@@ -19,8 +19,8 @@ namespace Exemplar::Live
 {
   class Viewer;
 
-  /// Lines for the one who has started the server, printable, and not more than some a second, whatever
-  /// strangers do.
+  /// Log for the user who started the server: printable lines, and no more than a few a second,
+  /// whatever strangers do.
   class ServerLog
   {
   public:
@@ -32,38 +32,38 @@ namespace Exemplar::Live
     unsigned int                          n_lines = 0, n_silent = 0;
   };
 
-  /// Who looks, and who of them has the mouse. All in the thread of the network.
+  /// The viewers, and which of them has the mouse. Used in the thread of the network alone.
   class Audience
   {
   public:
     Audience(Mailbox &mailbox, ServerLog &log) : mailbox(mailbox), log(log) {}
 
-    /// What each viewer gets first.
+    /// Sets the messages that each viewer gets first.
     void
     set_welcome(Welcome first)
     {
       welcome = std::move(first);
     }
 
-    /// False if there are as many as may be.
+    /// Adds a viewer; false if there are as many as are allowed.
     bool
     join(const std::shared_ptr<Viewer> &viewer);
 
     void
     leave(Viewer *viewer);
 
-    /// The server ends: nobody looks any more.
+    /// Closes all viewers at the end of the server.
     void
     dismiss();
 
     void
     show(const Bytes &frame);
 
-    /// All of them; a state also those who come later.
+    /// Sends a text to all viewers; a state also goes to those who come later.
     void
     tell(const std::string &text);
 
-    /// A viewer has sent this message; false if it is to be sent away for its messages.
+    /// Handles a message of a viewer; false if the viewer is to be closed for invalid messages.
     bool
     hear(Viewer *viewer, const std::string &message);
 
@@ -80,24 +80,24 @@ namespace Exemplar::Live
     Mailbox                          &mailbox;
     ServerLog                        &log;
     Welcome                           welcome;
-    Bytes                             newest; ///< frame; null: there was none
+    Bytes                             newest; ///< newest frame; null: none yet
     std::set<std::shared_ptr<Viewer>> viewers;
-    Viewer                           *holder = nullptr; ///< of the mouse
+    Viewer                           *holder = nullptr; ///< viewer that has the mouse
   };
 
-  /// Where to listen.
+  /// An address to listen at.
   struct ListenAt
   {
     std::string  address = "127.0.0.1"; ///< or unix:PATH
-    unsigned int port    = 0;           ///< 0: one that is free
+    unsigned int port    = 0;           ///< 0: any free one
   };
 
-  /// The name by which a browser asks who listens there; empty for a socket of the file system, for all addresses of the
-  /// machine, and for what is no address.
+  /// The host name by which a browser addresses a server there; empty for a socket of the file
+  /// system, for all addresses of the machine, and for an invalid address.
   std::string
   host_of(const ListenAt &place);
 
-  /// Listens, and lets in those whom Access knows.
+  /// The HTTP and WebSocket server; it admits requests that Access allows.
   class Server
   {
   public:
@@ -106,18 +106,18 @@ namespace Exemplar::Live
 
     ~Server();
 
-    /// What to open, or what to do before.
+    /// A line for the user: the address to open, or how to connect to it.
     std::string
     invitation() const;
 
-    /// What other threads post to.
+    /// The event loop, to which other threads may post.
     boost::asio::io_context &
     get_context()
     {
       return context;
     }
 
-    /// Until a signal ends it, or the context is stopped.
+    /// Runs until a signal ends it, or the context is stopped.
     void
     run();
 
@@ -132,14 +132,14 @@ namespace Exemplar::Live
 
     boost::asio::io_context                      context;
     boost::asio::basic_socket_acceptor<Protocol> acceptor;
-    boost::asio::signal_set                      signals; ///< that end it, from the beginning on
+    boost::asio::signal_set                      signals; ///< signals to stop, from the beginning
     const Access                                &access;
     const Site                                  &site;
     Audience                                    &audience;
-    std::string                   socket_file; ///< to remove at the end; may be empty
-    std::string                   host;        ///< to be asked for; of an address
-    unsigned int                  port          = 0;
-    std::shared_ptr<unsigned int> n_connections = std::make_shared<unsigned int>(0);
+    std::string                                  socket_file; ///< removed at the end; may be empty
+    std::string                                  host;        ///< name of the host in addresses
+    unsigned int                                 port          = 0;
+    std::shared_ptr<unsigned int>                n_connections = std::make_shared<unsigned int>(0);
   };
 } // namespace Exemplar::Live
 

@@ -11,34 +11,34 @@
 
 namespace Exemplar::Live
 {
-  /// All that was done since the beginning, on disk, so that hours of it take no memory. Functions throw
+  /// The events since the beginning, on disk, so that hours of them take no memory. Functions throw
   /// std::runtime_error if the disk is full.
   class SessionLog
   {
   public:
-    /// A session file, which must not be there yet; with an empty path a file without a name, which ends with the program. Throws
-    /// UserError if there can be none.
+    /// Makes a session file, which must not exist; with an empty path a file without a name, which
+    /// vanishes with the program. Throws UserError if there can be none.
     explicit SessionLog(const std::filesystem::path &file);
 
     void
     add(const SessionEvent &event);
 
-    /// How much was done so far [bytes].
+    /// Size of the events so far [bytes].
     long
     size() const
     {
       return n_bytes;
     }
 
-    /// All is as if only the first so many bytes had been done.
+    /// Truncates the log to its first `size` bytes of events.
     void
     cut(long size);
 
-    /// For all that was done, in its order.
+    /// Calls `action` for all events, in their order.
     void
     for_each(const std::function<void(const SessionEvent &)> &action);
 
-    /// Give to the system what is not on disk yet.
+    /// Flushes buffers to the system.
     void
     flush();
 
@@ -46,9 +46,9 @@ namespace Exemplar::Live
     void
     write(const std::string &text);
 
-    std::string name; ///< for messages
+    std::string name; ///< name for messages
     CFile       file;
-    long        n_bytes = 0; ///< without the head
+    long        n_bytes = 0; ///< size without the head
   };
 } // namespace Exemplar::Live
 

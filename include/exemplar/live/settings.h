@@ -17,11 +17,11 @@ namespace Exemplar
 
 namespace Exemplar::Live
 {
-  /// A number that each cell has.
+  /// A property of the cells as one number.
   struct NumberOfCells
   {
     double mean;
-    bool   varies; ///< from cell to cell
+    bool   varies; ///< whether it differs between cells
   };
 
   NumberOfCells
@@ -30,14 +30,15 @@ namespace Exemplar::Live
   NumberOfCells
   poisson_of(const Problem &problem);
 
-  /// Numbers of the whole body that viewers set by sliders, and between which bounds.
+  /// Numbers of the whole body that viewers set by sliders, and their bounds.
   class Settings
   {
   public:
-    /// Of a scene at its beginning.
+    /// Takes a problem at its beginning, whose values determine the bounds.
     explicit Settings(const Problem &problem);
 
-    /// Throws std::invalid_argument, in words for the viewer, for what cannot be set, or not to this.
+    /// The event of a command that sets a number. Throws std::invalid_argument, in words for the
+    /// viewer, for a number that cannot be set, or not to this value.
     SessionEvent
     event_of(const Command &command, const Problem &problem) const;
 
@@ -49,15 +50,15 @@ namespace Exemplar::Live
       return bounds;
     }
 
-    /// Whether the importance is so small that the body does as if it had no examples.
+    /// Whether the importance is at its lower bound, where the examples hardly act.
     bool
     is_without_examples(const Problem &problem) const;
 
   private:
-    const Bounds bounds; ///< by names
+    const Bounds bounds; ///< bounds by name of the number
   };
 
-  /// The events of a hand are done before the next step of the problem.
+  /// An event before the next step of the problem, when all events of a hand are done.
   SessionEvent
   before_next_step(const Problem            &problem,
                    const std::string        &what,

@@ -14,34 +14,34 @@
 
 namespace Exemplar::Live
 {
-  /// Where the solver's thread leaves what viewers get; both may be called from any thread.
+  /// Functions by which the solver's thread sends to viewers; both may be called from any thread.
   struct Outbox
   {
     std::function<void(Bytes)>       frame;
     std::function<void(std::string)> text; ///< JSON
   };
 
-  /// What a viewer gets first.
+  /// The messages that a viewer gets first.
   struct Welcome
   {
-    std::string        scene; ///< JSON: what doc/live.md calls so
-    std::string        state; ///< the same, and the newest
+    std::string        scene; ///< JSON, see doc/live.md
+    std::string        state; ///< JSON, the newest
     std::vector<Bytes> binaries;
   };
 
-  /// The body in its own thread: steps of one length at the pace of the clock, between which it does what
-  /// viewers ask for. No step depends on the clock: what was asked for is noted with the step before
-  /// which it was done.
+  /// The simulation in its own thread: steps of one length at the pace of the clock, between which
+  /// it does what viewers ask for. No step depends on the clock: each event is noted with the step
+  /// before which it was done.
   class Simulation
   {
   public:
-    /// Both must outlive it.
+    /// `stage` and `mailbox` must outlive this.
     Simulation(Stage &stage, Mailbox &mailbox, Outbox outbox);
 
     Welcome
     welcome() const;
 
-    /// Until the mailbox is stopped.
+    /// Runs until the mailbox is stopped.
     void
     run();
 
@@ -49,18 +49,19 @@ namespace Exemplar::Live
     void
     obey(const Command &command);
 
-    /// The same for what a hand does to the body.
+    /// Carries out a command by which a hand acts on the body.
     void
     touch(const Command &command);
 
-    /// For Undo, if it can be kept, with what is held at present.
+    /// Saves the present moment for Undo, together with `held`, if the disk has room.
     void
     keep_moment(const Hand::Held &held);
 
     void
     make_step();
 
-    /// A step has failed: let go; if that does not help, begin anew.
+    /// After a step that failed: releases all pulls; after repeated failures, begins anew and
+    /// pauses.
     void
     recover(const std::string &message);
 
@@ -88,16 +89,16 @@ namespace Exemplar::Live
     void
     tell(const std::string &type, const std::string &text) const;
 
-    /// By the field that is asked for; empty: none is.
+    /// Values at the vertices of the field that a viewer chose; empty: none is chosen.
     std::vector<double>
     colours() const;
 
-    /// What is shown beside the body.
+    /// Data shown beside the body.
     struct Shown
     {
       SolveReport   report;
       std::uint32_t n_frames = 0;
-      std::uint32_t pointer  = 0; ///< the newest place that the body knows
+      std::uint32_t pointer  = 0; ///< sequence number of the newest pointer place used
     };
 
     Stage                  &stage;
@@ -105,13 +106,13 @@ namespace Exemplar::Live
     const Outbox            outbox;
     const BodySurface       surface;
     Hand                    hand;
-    std::vector<Hand::Held> held_before; ///< at the moments that the stage keeps
+    std::vector<Hand::Held> held_before; ///< one for each moment that the stage keeps
     Pace                    pace;
     Shown                   shown;
     Wish                    wish;
-    bool                    state_is_new   = false; ///< to viewers
-    unsigned int            n_single_steps = 0;     ///< to make in a pause
-    unsigned int            n_failures     = 0;     ///< one after the other
+    bool                    state_is_new   = false; ///< whether viewers need a new state
+    unsigned int            n_single_steps = 0;     ///< steps to make while paused
+    unsigned int            n_failures     = 0;     ///< consecutive failed steps
   };
 } // namespace Exemplar::Live
 

@@ -15,27 +15,29 @@ namespace Exemplar::Live
   using Request  = boost::beast::http::request<boost::beast::http::string_body>;
   using Response = boost::beast::http::response<boost::beast::http::string_body>;
 
-  /// The files of the page, read once: a request names one of a table, and no path of it reaches the disk.
+  /// The files of the page, read once: requests look up a path in a table, and never reach the
+  /// disk.
   class Site
   {
   public:
-    /// The page at which a body is pulled. Throws UserError if a file of it or of three.js is missing.
+    /// The page at which a body is pulled. Throws UserError if a file of it or of three.js is
+    /// missing.
     Site();
 
-    /// One page that needs no other, and no WebSocket.
+    /// A site of one page that needs no other file, and no WebSocket.
     explicit Site(std::string page);
 
-    /// A file's type and bytes, and what of it a browser may carry out.
+    /// A file's media type and bytes, and the sources that its content policy allows.
     struct File
     {
       std::string type, bytes, sources;
     };
 
-    /// Null for paths that are none of the table.
+    /// The file of a path; null if there is none.
     const File *
     find(const std::string &path) const;
 
-    /// Whether viewers may come.
+    /// Whether viewers may connect by WebSocket.
     bool
     has_socket() const
     {
@@ -47,11 +49,11 @@ namespace Exemplar::Live
     bool                        is_live;
   };
 
-  /// Why a request is refused before it is looked at, in words for the log; empty: it is not.
+  /// The reason to refuse a request by its headers, in words for the log; empty: it is admitted.
   std::string
   objection_to(const Request &request, const Access &access);
 
-  /// What a request that is no WebSocket's gets. `objection` as above.
+  /// The response to a request that is no WebSocket's. `objection` is that of objection_to().
   Response
   answer(const Request     &request,
          const Access      &access,

@@ -14,18 +14,18 @@
 
 namespace Exemplar::Live
 {
-  /// A problem with all that was done to it, so that it can go back, and be played again. Files of the scene are read
-  /// once, whatever becomes of them later.
+  /// A problem with the log of all events, so that it can go back, and be played again. Files of
+  /// the scene are read once, whatever becomes of them later.
   class Stage
   {
   public:
-    /// `record_to`: a directory, or empty. Throws UserError for what is no dynamic scene, and what Recording refuses.
-    /// Writes nothing.
+    /// `record_to` is a directory, or empty. Throws UserError for a scene that is not dynamic, and
+    /// where Recording does. Writes nothing.
     Stage(const SceneFile &scene, const std::filesystem::path &record_to, unsigned int n_threads);
 
-    /// To be called once before all below: what is done is written down from now on. Returns the scene of an earlier
-    /// recording in the same directory, under the name that it has from now on; an empty path if there was none.
-    /// Throws UserError if there can be no recording.
+    /// Begins the log; to be called once before all functions below. Returns the scene of an
+    /// earlier recording in the same directory, under the name that it has from now on; an empty
+    /// path if there was none. Throws UserError if there can be no recording.
     std::filesystem::path
     begin();
 
@@ -35,7 +35,7 @@ namespace Exemplar::Live
       return *problem;
     }
 
-    /// For what the library computes from a state, without changing it.
+    /// The problem, for functions of the library that leave its state unchanged.
     Problem &
     get_problem()
     {
@@ -49,25 +49,26 @@ namespace Exemplar::Live
       return step_size;
     }
 
-    /// Null unless one is made.
+    /// The recording; null: none is made.
     Recording *
     get_recording()
     {
       return recording ? &*recording : nullptr;
     }
 
-    /// Do it before the next step, and note it. Throws UserError for what the problem refuses.
+    /// Apply events before the next step, and log them. Throws UserError for events that the
+    /// problem refuses.
     void
     act(const Session &events);
 
     SolveReport
     advance();
 
-    /// A step has failed: go on from its start, with nothing remembered.
+    /// After a step that failed: continue from its start, without the solver's memory.
     void
     forget();
 
-    /// Keep this moment for go_back(). Only the newest ones are kept.
+    /// Save this moment for go_back(). Only the newest moments are kept.
     void
     keep_moment();
 
@@ -77,25 +78,25 @@ namespace Exemplar::Live
       return moments.size();
     }
 
-    /// Go back to the moment that was kept last; false if there is none.
+    /// Go back to the last saved moment; false if there is none.
     bool
     go_back();
 
-    /// Go back to the beginning of the scene. What was recorded since then is kept under other names.
+    /// Go back to the beginning of the scene. The recording since then is kept under other names.
     void
     begin_anew();
 
-    /// Write down what is not on disk yet.
+    /// Write to disk all that is not there yet.
     void
     save();
 
   private:
-    /// Where go_back() leads.
+    /// A moment to which go_back() leads.
     struct Moment
     {
       State       state;
       StoredBytes solver_memory;
-      long        done; ///< size of what was done
+      long        done; ///< size of the log [bytes]
     };
 
     void
@@ -107,17 +108,17 @@ namespace Exemplar::Live
     void
     begin_recording();
 
-    CompleteScene   parameters; ///< of the scene, for this many threads
-    MshFile         contents;   ///< of the mesh at the beginning; the same holds for the next two
-    BodyFields      fields;
-    UndividedInputs undivided;
+    CompleteScene                  parameters; ///< parameters of the scene, for this many threads
+    MshFile                        contents;   ///< mesh at the beginning, as are the next two
+    BodyFields                     fields;
+    UndividedInputs                undivided;
     std::unique_ptr<Problem>       problem;
     std::unique_ptr<SessionPlayer> player;
     const double                   step_size;
     std::optional<Recording>       recording;
     std::optional<KeptInputs>      kept; ///< null unless there is a recording
-    std::vector<DeclaredKey>       keys; ///< of the recorded scene
-    std::optional<SessionLog>      done; ///< since the beginning
+    std::vector<DeclaredKey>       keys; ///< keys of the recorded scene
+    std::optional<SessionLog>      done; ///< log since the beginning
     std::vector<Moment>            moments;
   };
 } // namespace Exemplar::Live

@@ -8,7 +8,7 @@
 
 namespace Exemplar::Live
 {
-  /// Bytes that are seldom needed again, on disk in a file without a name, which ends with this.
+  /// Bytes that are seldom needed again, in an unnamed file on disk, which lives as long as this.
   class StoredBytes
   {
   public:

@@ -12,7 +12,7 @@
 
 namespace Exemplar::Live
 {
-  /// Bytes of a binary message, which several viewers get.
+  /// Bytes of a binary message, shared by viewers.
   using Bytes = std::shared_ptr<const std::string>;
 
   /// The kind of a binary message: its first number.
@@ -20,48 +20,49 @@ namespace Exemplar::Live
   {
     topology = 0,
     frame    = 1,
-    pose     = 2 ///< an example, as a frame whose number is that of the example
+    pose     = 2 ///< an example pose, as a frame with its number
   };
 
-  /// What is seen of a body: its boundary, with vertices of its own numbering.
+  /// The boundary of a body, with its own numbering of vertices.
   struct BodySurface
   {
     BodySurface() = default;
 
     explicit BodySurface(const Mesh &mesh);
 
-    std::vector<unsigned int>                nodes;     ///< of the mesh, of each vertex, ascending
-    std::vector<std::array<unsigned int, 3>> triangles; ///< of vertices, outwards
+    std::vector<unsigned int>                nodes;     ///< mesh node of each vertex, ascending
+    std::vector<std::array<unsigned int, 3>> triangles; ///< counterclockwise from outside
   };
 
-  /// Kind, numbers of vertices and triangles, and the three vertices of each triangle, as 32 bits each.
+  /// The topology message: kind, numbers of vertices and triangles, and the three vertices of each
+  /// triangle, as 32-bit integers.
   Bytes
   topology_message(const BodySurface &surface);
 
-  /// What stands in a frame beside the places.
+  /// The head of a frame.
   struct FrameHead
   {
     BinaryKind    kind    = BinaryKind::frame;
     std::uint32_t number  = 0;
     std::uint32_t step    = 0;
-    std::uint32_t pointer = 0;  ///< the newest that the step knew
+    std::uint32_t pointer = 0;  ///< newest pointer sequence known to the step
     double        time    = 0.; ///< [s]
   };
 
-  /// A frame: places as 16-bit integers in the box of the frame, so that each coordinate is known to
-  /// 1/131068 of the box' edge along it. `colours` are values at the vertices, sent as one byte each;
-  /// empty: none. Bytes in the order of doc/live.md.
+  /// A frame: places as 16-bit integers in the box of the frame, so that each coordinate is known
+  /// to 1/131068 of the box' edge along it. `colours` are values at the vertices, sent as one byte
+  /// each; empty: none. Bytes in the order of doc/live.md.
   Bytes
   frame_message(const FrameHead           &head,
                 const BodySurface         &surface,
                 const Vector              &positions,
                 const std::vector<double> &colours = {});
 
-  /// How far a coordinate of such a frame is from what it stands for, at most [m].
+  /// Largest error of a coordinate in such a frame [m].
   double
   rounding_of_frame(const BodySurface &surface, const Vector &positions);
 
-  /// The mean at the surface's vertices of what the cells have.
+  /// Values at the surface's vertices: means of the values of adjacent cells.
   std::vector<double>
   at_vertices(const std::vector<double> &of_cells, const Mesh &mesh, const BodySurface &surface);
 } // namespace Exemplar::Live

@@ -6,28 +6,28 @@
 
 namespace Exemplar::Live
 {
-  /// A point of the surface.
+  /// A point of the surface in barycentric coordinates.
   struct SurfacePoint
   {
     unsigned int          triangle;
-    std::array<double, 3> shares; ///< of its corners
+    std::array<double, 3> shares; ///< one for each corner
   };
 
-  /// Where it is when the nodes of the mesh are at these places.
+  /// Place of a surface point for these positions of the nodes.
   dealii::Point<3>
   place_of(const SurfacePoint &point, const BodySurface &surface, const Vector &positions);
 
-  /// What a hand takes hold of.
+  /// Weighted nodes that a hand takes hold of.
   struct SurfacePatch
   {
-    std::vector<unsigned int> nodes;  ///< of the mesh, ascending
-    std::vector<double>       shares; ///< of each; their sum is 1
+    std::vector<unsigned int> nodes;  ///< nodes of the mesh, ascending
+    std::vector<double>       shares; ///< weight of each node; sum 1
   };
 
-  /// All of the surface around a point that hangs together with its triangle within a radius [m], at these
-  /// positions: (1 - (d/radius)^2)^2 at the distance d, times the area that a vertex stands for, so that
-  /// the shares do not depend on how fine the surface is. A triangle that is larger than the radius is
-  /// taken hold of at its three corners at least.
+  /// The patch around a point: the part of the surface connected with its triangle within a radius
+  /// [m], at these positions. The weight is (1 - (d/radius)^2)^2 at the distance d, times the area
+  /// of a vertex, so that it does not depend on how fine the surface is. A triangle larger than the
+  /// radius is taken hold of at its three corners at least.
   SurfacePatch
   patch_around(const SurfacePoint &point,
                const BodySurface  &surface,

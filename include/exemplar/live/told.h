@@ -12,26 +12,26 @@
 
 namespace Exemplar::Live
 {
-  /// What a viewer has asked for that does nothing to the body.
+  /// Choices of a viewer that do not affect the body.
   struct Wish
   {
     std::string colour    = "none";
     bool        is_paused = false;
   };
 
-  /// What does not change while the server lives.
+  /// The constant data of a scene, sent once.
   std::string
   scene_text(Stage &stage, const Hand &hand, const BodySurface &surface);
 
-  /// What is set, held and asked for: all that a page shows beside the body's places.
+  /// Settings, held parts and choices: all that a page shows beside the body's positions.
   std::string
   state_text(const Stage &stage, const Hand &hand, const BodySurface &surface, const Wish &wish);
 
-  /// Whether state_text() gave this text.
+  /// Whether a text is one of state_text().
   bool
   is_state(const std::string &text);
 
-  /// How time goes.
+  /// The pace of the simulation and the report on its last step.
   std::string
   status_text(const Problem       &problem,
               const Hand          &hand,
@@ -39,7 +39,7 @@ namespace Exemplar::Live
               const Pace::Summary &summary,
               bool                 is_paused);
 
-  /// Words for the user.
+  /// A message for the user.
   std::string
   words_text(const std::string &type, const std::string &words);
 } // namespace Exemplar::Live

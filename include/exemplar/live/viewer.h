@@ -14,37 +14,38 @@ namespace Exemplar::Live
 {
   using Stream = boost::beast::basic_stream<boost::asio::generic::stream_protocol>;
 
-  /// One that looks, at the other end of a WebSocket. Frames wait for its acknowledgements, two under way,
-  /// and only the newest waits.
+  /// A viewer at the other end of a WebSocket. At most two frames are sent without acknowledgement;
+  /// of those that wait, only the newest is kept.
   class Viewer : public std::enable_shared_from_this<Viewer>
   {
   public:
-    /// `connection` counts it as long as it lives.
+    /// `connection` counts it among the connections while it lives.
     Viewer(Stream stream, Audience &audience, std::shared_ptr<void> connection);
 
-    /// Shake hands, and join the audience.
+    /// Completes the WebSocket handshake and joins the audience.
     void
     begin(const Request &request);
 
     void
     send_text(const std::string &text);
 
-    /// Of these none is left out.
+    /// Sends a binary message that, unlike frames, is never dropped.
     void
     send_binary(const Bytes &bytes);
 
     void
     send_frame(const Bytes &frame);
 
-    /// The newest frame that it has. Frames are counted from 1; what it says of none is ignored.
+    /// Acknowledges frames up to this one. Frames are counted from 1; frames that were not sent are
+    /// ignored.
     void
     acknowledge(unsigned int frame);
 
-    /// Messages that were none so far.
+    /// Number of invalid messages so far.
     unsigned int n_mistakes = 0;
 
   private:
-    /// What is to be sent.
+    /// A message to be sent.
     struct Message
     {
       Bytes bytes;
@@ -57,7 +58,7 @@ namespace Exemplar::Live
     void
     write_next();
 
-    /// The newest frame, if it may go on its way.
+    /// Sends the newest frame, if there are not too many without acknowledgement.
     void
     offer_frame();
 
@@ -71,9 +72,9 @@ namespace Exemplar::Live
     Audience                               &audience;
     std::shared_ptr<void>                   connection;
     boost::beast::flat_buffer               buffer;
-    std::deque<Message>                     queue; ///< the first is under way
+    std::deque<Message>                     queue; ///< the first is being sent
     Bytes                                   waiting;
-    std::deque<std::uint32_t>               under_way; ///< numbers of frames
+    std::deque<std::uint32_t>               under_way; ///< frames without acknowledgement
     bool                                    is_open = false, is_closing = false;
   };
 } // namespace Exemplar::Live

@@ -9,16 +9,18 @@
 
 namespace Exemplar::Live
 {
-  /// Weights of the examples that a hand has set. Sliders jump, and weights follow them.
+  /// Weights of the examples set by sliders. Sliders may jump; weights follow them at a limited
+  /// speed.
   class WeightSliders
   {
   public:
-    /// One for each example, the same in all regions; empty: steps find them again. Returns what is to be done at
-    /// once. Throws std::invalid_argument, in words for the viewer, for what the scene does not allow.
+    /// Sets target weights, one for each example, the same in all regions; empty: steps find the
+    /// weights again. Returns the event to be done at once. Throws std::invalid_argument, in words
+    /// for the viewer, for weights that the scene does not allow.
     SessionEvent
     want(const std::vector<double> &values, const Problem &problem);
 
-    /// Let them come nearer before the next step; there may be nothing to do.
+    /// Moves the weights towards their targets before the next step; no events if they are there.
     Session
     follow(const Problem &problem);
 
@@ -28,7 +30,7 @@ namespace Exemplar::Live
       return !to.empty();
     }
 
-    /// Where they are, or strive to, of all regions; empty: not in use.
+    /// Target weights of all regions; empty: not in use.
     const std::vector<double> &
     wanted() const
     {
@@ -36,7 +38,7 @@ namespace Exemplar::Live
     }
 
   private:
-    std::vector<double> at, to; ///< of all regions; empty: not in use
+    std::vector<double> at, to; ///< weights and targets of all regions; empty: not in use
   };
 } // namespace Exemplar::Live
 

@@ -9,20 +9,21 @@
 #include <string>
 #include <vector>
 
-// What Python's arrays mean to exemplar. All throw UserError, with rows counted from 0, for what
-// these cannot be.
+// Conversion of Python's arrays. All functions throw UserError, with rows counted from 0, for
+// arrays that do not fit.
 
 namespace Exemplar::Python
 {
-  /// In words, as in "an array of shape (9, 2)" or "a NoneType".
+  /// The kind of an object in words, as in "an array of shape (9, 2)" or "a NoneType".
   std::string
   description(const pybind11::handle &object);
 
-  /// Throws UserError unless an array has real numbers: numpy would drop the imaginary parts of complex ones.
+  /// Throws UserError unless an array has real numbers: numpy would drop the imaginary parts of
+  /// complex ones.
   void
   require_real(const pybind11::array &array, const std::string &what);
 
-  /// What float() makes of it. Throws Python's TypeError for anything else, and for complex numbers.
+  /// The value float(object). Throws Python's TypeError for anything else, and for complex numbers.
   double
   real_number_of(const pybind11::handle &object, const std::string &what);
 
@@ -31,15 +32,15 @@ namespace Exemplar::Python
   std::vector<dealii::Point<3>>
   points_of(const pybind11::handle &object, const std::string &what, pybind11::ssize_t n = -1);
 
-  /// A number, or an array (n) of finite numbers: then n of them, else one.
+  /// n numbers from an array (n) of finite numbers, or one number from a single one.
   std::vector<double>
   numbers_of(const pybind11::handle &object, const std::string &what, pybind11::ssize_t n);
 
-  /// Indices from 0 of some of n nodes, in any order; ascending, each once.
+  /// Indices from 0 of some of n nodes, given in any order; returned ascending, each once.
   std::vector<unsigned int>
   nodes_of(const pybind11::handle &object, const std::string &what, std::size_t n);
 
-  /// A tuple (nodes, cells) or (nodes, cells, material ids).
+  /// The mesh of a tuple (nodes, cells) or (nodes, cells, material ids).
   MshFile
   mesh_of(const pybind11::object &mesh);
 } // namespace Exemplar::Python

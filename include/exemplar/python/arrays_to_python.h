@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-// Numbers of exemplar as arrays of Python.
+// Conversion of numbers of exemplar to arrays of Python.
 
 namespace Exemplar::Python
 {
@@ -26,11 +26,11 @@ namespace Exemplar::Python
     return pybind11::array_t<Number>(std::move(shape), kept->data(), owner);
   }
 
-  /// Of nine numbers a matrix, by rows.
+  /// An array of 3 x 3 matrices, whose nine numbers are by rows.
   pybind11::array
   array_of(const std::vector<Matrix3<double>> &matrices, Shape shape);
 
-  /// (m, n), by rows.
+  /// An array (m, n), by rows.
   pybind11::array
   array_of(const dealii::FullMatrix<double> &matrix);
 

@@ -6,8 +6,8 @@
 
 namespace Exemplar::Python
 {
-  /// Of exemplar.Problem what it is made of: its material, cells, surface, handles and examples, and how it is
-  /// printed.
+  /// Adds to exemplar.Problem the properties of its body (material, cells, surface, handles and
+  /// examples) and its printed form.
   void
   add_body(ProblemClass &problem);
 } // namespace Exemplar::Python

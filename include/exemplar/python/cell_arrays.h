@@ -6,7 +6,7 @@
 
 namespace Exemplar::Python
 {
-  /// Of exemplar.Problem what its cells show of the state.
+  /// Adds to exemplar.Problem the arrays of the state in its cells.
   void
   add_cell_arrays(ProblemClass &problem);
 } // namespace Exemplar::Python

@@ -6,8 +6,8 @@
 
 namespace Exemplar::Python
 {
-  /// Ask the laboratory of a problem without Python's lock; `what` is called for that. Throws as
-  /// HeldProblem::change().
+  /// Call `function` with the laboratory of a problem, without Python's lock; `what` is the name of
+  /// the caller. Throws as HeldProblem::use().
   template <typename Function>
   void
   ask(HeldProblem &held, const std::string &what, const Function &function)
@@ -15,7 +15,7 @@ namespace Exemplar::Python
     held.use(what, [&function](Problem &problem) { function(problem.laboratory()); });
   }
 
-  /// Of exemplar.Problem energies, forces and matrices anywhere.
+  /// Adds to exemplar.Problem the evaluation of energies, forces and matrices at any positions.
   void
   add_evaluation(ProblemClass &problem);
 } // namespace Exemplar::Python

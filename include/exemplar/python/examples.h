@@ -6,8 +6,8 @@
 
 namespace Exemplar::Python
 {
-  /// Let docstrings end in an example, as Python's doctest reads it: those of all public names. To be called
-  /// when all of them are there, before add_signatures().
+  /// Append to the docstrings of all public names an example, as Python's doctest reads it. To be
+  /// called when all of them are there, before add_signatures().
   void
   add_examples(const pybind11::module_ &module);
 } // namespace Exemplar::Python

@@ -7,9 +7,9 @@
 
 namespace Exemplar::Python
 {
-  /// Of public names, such as "Problem.step", examples as Python's doctest runs them. There `problem` is of a dynamic
-  /// scene with an example pose and the handles left and right, after two steps, `static` of one that was
-  /// solved, and `np` is numpy.
+  /// Pairs of a public name, such as "Problem.step", and its example as Python's doctest runs it.
+  /// There `problem` is a dynamic scene with an example pose and the handles left and right, after
+  /// two steps, `static` one that was solved, and `np` is numpy.
   const std::vector<std::pair<const char *, const char *>> &
   examples_of_names();
 } // namespace Exemplar::Python

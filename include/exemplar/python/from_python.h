@@ -10,16 +10,16 @@
 
 #include <pybind11/pybind11.h>
 
-// What Python's objects mean to exemplar.
+// Conversion of Python's objects.
 
 namespace Exemplar::Python
 {
-  /// A scene and what stands in for its files.
+  /// A scene and the inputs that replace its files.
   struct Given
   {
     SceneSource     source;
     SceneParameters scene;
-    InputStamps     stamps; ///< of its files
+    InputStamps     stamps; ///< stamps of its files
     Inputs          inputs;
   };
 
@@ -31,8 +31,8 @@ namespace Exemplar::Python
               const pybind11::object &mesh,
               const pybind11::object &poses);
 
-  /// What a function of Python returns. Of one that does not take such arguments the TypeError is
-  /// told, with `usage`. Throws what the function raises.
+  /// The result of a call of a Python function. If it does not take such arguments, the TypeError
+  /// is reported with `usage`. Throws what the function raises.
   pybind11::object
   call(const pybind11::object &function,
        const pybind11::tuple  &arguments,

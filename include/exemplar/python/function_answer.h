@@ -13,7 +13,7 @@
 
 namespace Exemplar::Python
 {
-  /// What a function has returned, and for what.
+  /// The values that a term's function has returned, with the place and time that it was given.
   struct FunctionAnswer
   {
     Vector                   positions;
@@ -30,9 +30,9 @@ namespace Exemplar::Python
     }
   };
 
-  /// What function(positions (n,3), time) -> energy, gradient (n,3), sparse Hessian (3n,3n) or None
-  /// returns; `term_name` stands for it in messages. Throws UserError for anything else, and what the
-  /// function raises. Takes Python's lock.
+  /// Calls function(positions (n,3), time) -> energy, gradient (n,3), sparse Hessian (3n,3n) or
+  /// None; `term_name` stands for it in messages. Throws UserError if it returns anything else, and
+  /// what the function raises. Takes Python's lock.
   FunctionAnswer
   answer_of(const pybind11::object &function,
             const std::string      &term_name,

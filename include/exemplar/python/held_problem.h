@@ -20,57 +20,58 @@
 
 namespace Exemplar::Python
 {
-  /// A problem that Python holds. Steps are made without Python's lock; meanwhile other threads
-  /// are refused, and callbacks of the step may only look. It owns the functions of Python, and
-  /// arrays do not own it: what refers to both could never be freed.
+  /// A problem that Python holds. Steps are made without Python's lock; meanwhile other threads are
+  /// refused, and callbacks of the step may only read. It owns the functions of Python, and arrays
+  /// do not own it: what refers to both could never be freed.
   class HeldProblem : public std::enable_shared_from_this<HeldProblem>
   {
   public:
-    /// As from_python(). Throws UserError.
+    /// Takes the arguments of from_python(). Throws UserError.
     HeldProblem(const pybind11::object &scene,
                 const pybind11::object &mesh,
                 const pybind11::object &poses);
 
-    /// The next step, or another one. Throws SolverFailure, Interrupted and whatever callbacks throw; the
-    /// problem is then as it was before the step.
+    /// Makes the next step, or that of `other`. Throws SolverFailure, Interrupted and whatever
+    /// callbacks throw; the problem is then as it was before the step.
     SolveReport
     step(const std::optional<StepInterval> &other = {});
 
-    /// All steps that are left; returns the report of the last one. `after_step` is called after each.
+    /// Makes all steps that are left; returns the report of the last one. `after_step` is called
+    /// after each.
     SolveReport
     run(const std::function<void()> &after_step = {});
 
-    /// Between steps, ask something of the problem without Python's lock; `what` is called for that. Throws
-    /// RuntimeError while a step is made, and what `function` throws.
+    /// Between steps, call `function` without Python's lock; `what` is the name of the caller.
+    /// Throws RuntimeError while a step is made, and what `function` throws.
     void
     use(const std::string &what, const std::function<void(Problem &)> &function);
 
-    /// The same for what makes another problem of it, or sets its state. Throws UserError, too, while it is
-    /// recorded.
+    /// use() for a function that changes the problem or sets its state. Throws UserError, too,
+    /// while the problem is recorded.
     void
     change(const std::string &what, const std::function<void(Problem &)> &function);
 
-    /// Throws RuntimeError while a step is made.
+    /// The state with the solver's memory. Throws RuntimeError while a step is made.
     SavedState
     save() const;
 
-    /// Go on from there, by default from the beginning. Throws UserError for what is of another body, and
-    /// RuntimeError while a step is made.
+    /// Continue from a saved state, by default from the beginning. Throws UserError for a state of
+    /// another body, and RuntimeError while a step is made.
     void
     restore(const SavedState *saved = nullptr);
 
     void
     set_motion(const pybind11::object &name, const pybind11::object &function);
 
-    /// Let Phi have a term that calls a function, see make_function_term().
+    /// Add to Phi a term that calls a function, see make_function_term().
     void
     add_term(const pybind11::object &function);
 
-    /// None: nothing is called.
+    /// Set the function that is called after each iteration; None removes it.
     void
     on_iteration(const pybind11::object &function);
 
-    /// What the problem was made of.
+    /// The scene that the problem was made of.
     const SceneSource &
     get_source() const
     {
@@ -84,8 +85,8 @@ namespace Exemplar::Python
       return inputs;
     }
 
-    /// By what the problem is no more as it was made, such as "set_material()"; empty: it is. Throws
-    /// RuntimeError while a step is made.
+    /// The call that has changed the problem since it was made, such as "set_material()"; empty:
+    /// none. Throws RuntimeError while a step is made.
     std::string
     change_since_made() const;
 
@@ -95,11 +96,11 @@ namespace Exemplar::Python
       return functions;
     }
 
-    /// To look at the problem. Throws RuntimeError while another thread makes a step.
+    /// The problem, to be read. Throws RuntimeError while another thread makes a step.
     const Problem &
     get() const;
 
-    /// What the program would warn of, so far. Python is told each when it is found.
+    /// The warnings of the program, so far. Python is given each when it is found.
     const std::vector<std::string> &
     get_warnings() const
     {
@@ -129,41 +130,42 @@ namespace Exemplar::Python
       return stepping != std::thread::id() && stepping != std::this_thread::get_id();
     }
 
-    /// The numbers of a row of statistics.csv, seconds aside, whose columns begin with `prefix`.
+    /// The numbers of a row of statistics.csv, without seconds, from columns that begin with
+    /// `prefix`.
     pybind11::dict
     statistics(const std::string &prefix) const;
 
   private:
     explicit HeldProblem(Given given);
 
-    /// Throws what a filter of Python's warnings makes of them.
+    /// Issues some warnings. Throws what a filter of Python's warnings makes of them.
     void
     warn(const std::vector<std::string> &some);
 
-    /// Of functions that move handles too far in the next step, or elsewhere at the beginning; once
-    /// until one is set anew.
+    /// Warns of functions that move handles too far in the next step, or away from rest at the
+    /// beginning; once until one is set anew.
     void
     warn_of_motions();
 
-    /// Throws RuntimeError while a step is made; `what` is called meanwhile.
+    /// Throws RuntimeError while a step is made; `what` is the name of the caller.
     void
     require_no_step(const std::string &what) const;
 
-    /// Throws UserError while a trajectory records the problem; `what` is called meanwhile.
+    /// Throws UserError while a trajectory records the problem; `what` is the name of the caller.
     void
     require_not_recorded(const std::string &what) const;
 
-    /// Look at terms of one's own that have not acted before. Throws UserError for a gradient that is not its
-    /// energy's, and what functions raise.
+    /// Check the user's terms that have not acted before. Throws UserError for a gradient that is
+    /// not its energy's, and what functions raise.
     void
     check_new_terms();
 
-    /// After a step that failed with this message: throw UserError or SolverFailure if a term of one's own is to
-    /// blame.
+    /// After a step that failed with this message: throw UserError or SolverFailure if one of the
+    /// user's terms is to blame.
     void
     blame_terms(const std::string &failure) const;
 
-    /// Called after each iteration; whether to go on.
+    /// Called after each iteration; returns whether to go on.
     bool
     observe(const SolveReport &iteration);
 
@@ -182,7 +184,7 @@ namespace Exemplar::Python
     StateReview                    review;
     SolveReport                    report;
     std::thread::id stepping; ///< the thread that makes a step; none: no step is made
-    bool            is_stopped           = false; ///< by the callback
+    bool            is_stopped           = false; ///< whether the callback stopped the solver
     bool            is_warned_of_motions = false;
   };
 } // namespace Exemplar::Python

@@ -10,8 +10,8 @@
 
 namespace Exemplar::Python
 {
-  /// Which input files a problem was made of, and how they were then: what is read again must be what was
-  /// read.
+  /// Names, sizes and times of the input files that a problem was made of, so that files read again
+  /// are those read before.
   class InputStamps
   {
   public:
@@ -22,12 +22,13 @@ namespace Exemplar::Python
     std::vector<std::filesystem::path>
     files() const;
 
-    /// Throws UserError, with its name, for a file that was changed, removed or replaced; `what` reads them.
+    /// Throws UserError, with its name, for a file that was changed, removed or replaced; `what` is
+    /// the name of the caller that reads them.
     void
     require_unchanged(const std::string &what) const;
 
   private:
-    /// The size and the time of the last change; zeros of what is no file.
+    /// Size and time of the last change of a file; zeros if it is no file.
     struct Stamp
     {
       std::uintmax_t                  size = 0;

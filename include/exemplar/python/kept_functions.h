@@ -10,25 +10,25 @@
 
 namespace Exemplar::Python
 {
-  /// The function of a term of one's own.
+  /// The Python function of a term of the user's.
   struct KeptTerm
   {
     pybind11::object function;
-    bool             is_checked = false; ///< its gradient, where it acts
+    bool             is_checked = false; ///< whether its gradient was, where it acts
   };
 
-  /// The functions of Python that a problem calls. They keep their places.
+  /// The Python functions that a problem calls. Their addresses do not change.
   struct KeptFunctions
   {
-    std::map<std::string, pybind11::object> motions; ///< by handle
+    std::map<std::string, pybind11::object> motions; ///< functions by name of handle
     std::list<KeptTerm>                     terms;
-    pybind11::object                        callback = pybind11::none(); ///< of on_iteration()
+    pybind11::object                        callback = pybind11::none(); ///< on_iteration()'s
 
-    /// For Python's garbage collector: call visit(function, arg) for all.
+    /// Calls visit(function, arg) for all functions, for Python's garbage collector.
     int
     visit(visitproc visit, void *arg) const;
 
-    /// For a problem that nobody will use any more.
+    /// Drop all functions, for a problem that nobody will use any more.
     void
     forget();
   };

@@ -7,8 +7,8 @@
 
 #include <pybind11/pybind11.h>
 
-// Objects of Python's types whose __init__ was never called, as type.__new__(type) and pickles that were
-// changed make them: pybind11 would take memory that nobody has filled for their values.
+// Objects of Python's types whose __init__ was never called, as type.__new__(type) and pickles that
+// were changed make them: pybind11 would take memory that nobody has filled for their values.
 
 namespace Exemplar::Python
 {
@@ -23,7 +23,8 @@ namespace Exemplar::Python
     return instance->get_value_and_holder().value_ptr() != nullptr;
   }
 
-  /// How Python gets a value of this type, as a sentence; one for each type that has a MadeCaster.
+  /// A sentence on how to get a value of this type in Python; one for each type that has a
+  /// MadeCaster.
   inline const char *
   how_to_get(const SavedState * /*type*/)
   {
@@ -36,7 +37,7 @@ namespace Exemplar::Python
     return "A Report is what a step returns: problem.step().";
   }
 
-  /// As pybind11 has it for any class, but what was never made is refused.
+  /// pybind11's caster for a class, which also refuses objects that were never made.
   template <typename T>
   struct MadeCaster : pybind11::detail::type_caster_base<T>
   {

@@ -6,7 +6,7 @@
 
 namespace Exemplar::Python
 {
-  /// Of exemplar.Problem add_term() and check_term().
+  /// Adds to exemplar.Problem add_term() and check_term().
   void
   add_terms(ProblemClass &problem);
 } // namespace Exemplar::Python

@@ -6,7 +6,7 @@
 
 namespace Exemplar::Python
 {
-  /// Of exemplar.Problem plot() and animate(), which are written in Python beside the module.
+  /// Adds to exemplar.Problem plot() and animate(), which are written in Python beside the module.
   void
   add_plot(ProblemClass &problem);
 } // namespace Exemplar::Python

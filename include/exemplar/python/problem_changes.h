@@ -6,7 +6,8 @@
 
 namespace Exemplar::Python
 {
-  /// Of exemplar.Problem what changes it between its steps: material, loads, damping, handles, poses.
+  /// Adds to exemplar.Problem the changes between its steps: material, loads, damping, handles,
+  /// poses.
   void
   add_changes(ProblemClass &problem);
 } // namespace Exemplar::Python

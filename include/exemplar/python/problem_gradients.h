@@ -9,23 +9,24 @@
 
 namespace Exemplar::Python
 {
-  /// problem.vjp().
+  /// Adds problem.vjp() to exemplar.Problem.
   void
   add_gradients(ProblemClass &problem);
 
-  /// What problem.vjp() returns, of a mesh of so many vertices.
+  /// The result of problem.vjp() for a mesh of n_vertices.
   pybind11::dict
   gradients_to_python(const Gradients &found, std::size_t n_vertices);
 
-  /// (n, 3) in the memory of the field, which is the array's from now on.
+  /// An array (n, 3) in the memory of the field, which it takes over.
   pybind11::array
   array_of_nodes(Vector field);
 
-  /// Whether it is an array with so many rows.
+  /// Whether the object is an array with n rows.
   bool
   has_rows(const pybind11::object &array, pybind11::ssize_t n);
 
-  /// Throws UserError for what is no array of a finite number for each of n weights; `what` stands for it.
+  /// Throws UserError unless the object is an array of n finite numbers, one a weight; `what`
+  /// stands for it in messages.
   void
   check_weight_derivatives(const pybind11::object &array, const std::string &what, std::size_t n);
 } // namespace Exemplar::Python

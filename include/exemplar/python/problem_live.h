@@ -6,7 +6,7 @@
 
 namespace Exemplar::Python
 {
-  /// Of exemplar.Problem live(), which is written in Python beside the module.
+  /// Adds to exemplar.Problem live(), which is written in Python beside the module.
   void
   add_live(ProblemClass &problem);
 } // namespace Exemplar::Python

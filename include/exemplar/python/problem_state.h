@@ -6,7 +6,7 @@
 
 namespace Exemplar::Python
 {
-  /// exemplar.State, and of exemplar.Problem state, step(), goto() and reset().
+  /// Adds exemplar.State to the module, and state, step(), goto() and reset() to exemplar.Problem.
   void
   add_saved_states(pybind11::module_ &module, ProblemClass &problem);
 } // namespace Exemplar::Python

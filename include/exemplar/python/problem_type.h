@@ -5,7 +5,7 @@
 #include <exemplar/python/held_problem.h>
 #include <exemplar/python/made_objects.h>
 
-// What pybind11 leaves open of Python's type exemplar.Problem.
+// Parts of Python's type exemplar.Problem that pybind11 does not provide.
 
 namespace Exemplar::Python
 {
@@ -22,22 +22,22 @@ namespace Exemplar::Python
 
   using ProblemClass = pybind11::class_<HeldProblem, std::shared_ptr<HeldProblem>>;
 
-  /// For calls of a method that fit nothing else; pybind11 would print all that it was given, arrays
-  /// too.
+  /// Adds an overload that refuses all calls of a method that fit no other, with `usage`; pybind11
+  /// would print all arguments, arrays too.
   void
   refuse_other_arguments(ProblemClass &problem, const char *name, const std::string &usage);
 
-  /// Python's own setting of attributes, but for methods and for what can only be read, of which it says what to do
-  /// instead.
+  /// Adds a __setattr__ that sets attributes as Python does, but refuses methods and read-only
+  /// properties, and says what to do instead.
   void
   add_refusals_to_set(ProblemClass &problem);
 
-  /// Let pickle and copy refuse the objects of a type: with pickle's oldest protocols pybind11 would end the
-  /// process.
+  /// Makes pickle and copy refuse the objects of a type: with pickle's oldest protocols pybind11
+  /// would end the process.
   void
   refuse_pickling(const pybind11::object &type, const std::string &remedy);
 
-  /// Let Python's garbage collector find, and end, cycles of problems and their functions.
+  /// Lets Python's garbage collector find and break cycles of problems and their functions.
   void
   support_garbage_collection(PyHeapTypeObject *type);
 } // namespace Exemplar::Python

@@ -10,15 +10,15 @@
 
 namespace Exemplar::Python
 {
-  /// A state of a problem, and what makes its next steps the same once more.
+  /// A state of a problem, with all that is needed to make the same next steps again.
   struct SavedState
   {
     State         state;
-    Work          work;         ///< done up to it
-    std::string   memory;       ///< of the solver; empty: none
-    std::uint64_t settings = 0; ///< of the problem, with others its memory is of no use
+    Work          work;         ///< work of the forces up to it [J]
+    std::string   memory;       ///< solver's memory; empty: none
+    std::uint64_t settings = 0; ///< digest of the settings for which the memory is valid
 
-    /// For boost's archives.
+    /// Serialization by boost's archives.
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int /*version*/)
@@ -30,12 +30,12 @@ namespace Exemplar::Python
   SavedState
   save_state(const Problem &problem, const Work &work);
 
-  /// Throws UserError for a state of another body, with what differs, and for one that no step can start
-  /// from.
+  /// Throws UserError for a state of another body, with the difference, and for one from which no
+  /// step can start.
   void
   check_fits(const SavedState &saved, const Problem &problem);
 
-  /// To be called for what fits.
+  /// Sets the state of a problem. Precondition: check_fits() has passed.
   void
   restore_state(const SavedState &saved, Problem &problem);
 } // namespace Exemplar::Python

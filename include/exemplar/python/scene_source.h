@@ -12,26 +12,26 @@
 
 namespace Exemplar::Python
 {
-  /// What Python gave as the scene of a problem, as text: the scene can be written once more, for
-  /// another program.
+  /// The scene of a problem as Python gave it, as text, so that it can be written for another
+  /// program.
   struct SceneSource
   {
-    std::filesystem::path    file;        ///< as it was given; empty: there is none
-    std::string              text;        ///< of the file, or given; empty: a dictionary was given
-    std::vector<Assignment>  assignments; ///< that come after the text
-    std::vector<std::string> warnings = {};    ///< of keys that do nothing in Python
+    std::filesystem::path    file;             ///< path as given; empty: none
+    std::string              text;             ///< text of the scene; empty: a dictionary was given
+    std::vector<Assignment>  assignments;      ///< assignments after the text
+    std::vector<std::string> warnings = {};    ///< keys that do nothing in Python
     std::filesystem::path    place    = {};    ///< absolute, from whose directory files are named
     bool                     has_mesh = false; ///< an array stands in for the mesh
     std::size_t              n_poses  = 0;     ///< arrays that stand in for Examples/Poses
   };
 
-  /// What Python's str() makes of a key, a value or a name. Throws UserError for a NUL character,
-  /// at which a message would end; `what` says there what it is.
+  /// The value str(object) of a key, a value or a name. Throws UserError for a NUL character, at
+  /// which a message would end; `what` names the object there.
   std::string
   text_of(const pybind11::handle &object, const std::string &what);
 
-  /// Of the path of a .prm file, its text or a dictionary of sections. `assignments` come after it.
-  /// Throws UserError for what a scene cannot be, and pybind11's exceptions.
+  /// The source of a scene given by the path of a .prm file, its text or a dictionary of sections.
+  /// `assignments` come after it. Throws UserError for anything else, and pybind11's exceptions.
   SceneSource
   scene_source(const pybind11::object        &scene,
                const std::vector<Assignment> &assignments,

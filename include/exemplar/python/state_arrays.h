@@ -16,24 +16,24 @@ namespace Exemplar::Python
   public:
     explicit StateArrays(std::shared_ptr<Problem> problem);
 
-    /// (n,3) [m]. They stay what they are when steps replace the state: then the problem leaves them
-    /// the memory. Within a step, which will free it, a copy.
+    /// Positions (n,3) [m]. The array keeps its values when steps replace the state, as the problem
+    /// then leaves it the memory. Within a step, which will free the memory, it is a copy.
     pybind11::array
     positions(bool in_step);
 
-    /// Likewise, [m/s]; None in scenes without.
+    /// Velocities (n,3) [m/s], likewise; None in scenes without.
     pybind11::object
     velocities(bool in_step);
 
-    /// (n,3) [m].
+    /// Rest positions (n,3) [m].
     pybind11::array
     rest_positions() const;
 
-    /// (m,4), nodes from 0.
+    /// Nodes of the cells (m,4), from 0.
     pybind11::array
     cells() const;
 
-    /// Leave to arrays the memory of the state, which is about to be replaced.
+    /// Leave the memory of the state, which is about to be replaced, to the arrays.
     void
     let_go();
 
@@ -41,7 +41,7 @@ namespace Exemplar::Python
     /// A field of the state that arrays show.
     struct Shown
     {
-      Vector memory; ///< of a state that is no more; empty: the problem has it
+      Vector memory; ///< field of a former state; empty: problem has it
     };
 
     pybind11::array

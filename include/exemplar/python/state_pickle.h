@@ -6,12 +6,12 @@
 
 namespace Exemplar::Python
 {
-  /// What pickle keeps of a state: bytes with their digest.
+  /// The pickled form of a state: bytes with their digest.
   pybind11::object
   pickled(const SavedState &saved);
 
-  /// The state of what pickled() gave. Throws UserError for anything else: bytes that were changed, and
-  /// those of another version of exemplar.
+  /// The state from the result of pickled(). Throws UserError for anything else: bytes that were
+  /// changed, and those of another version of exemplar.
   SavedState
   unpickled(const pybind11::object &kept);
 } // namespace Exemplar::Python

@@ -6,8 +6,8 @@
 
 namespace Exemplar::Python
 {
-  /// Tell logging.getLogger("exemplar") of a step that was made, at level INFO. Costs nothing unless
-  /// Python has imported logging. The caller holds Python's lock.
+  /// Report a step to logging.getLogger("exemplar"), at level INFO. Costs nothing unless Python has
+  /// imported logging. The caller holds Python's lock.
   void
   log_step(const Problem &problem, const SolveReport &report);
 } // namespace Exemplar::Python

@@ -10,7 +10,7 @@ namespace Exemplar::Python
   bool
   is_recorded(const Problem &problem);
 
-  /// exemplar.Trajectory, and problem.record(), which makes one.
+  /// Adds exemplar.Trajectory to the module, and problem.record(), which makes one.
   void
   add_trajectories(pybind11::module_ &module, ProblemClass &problem);
 } // namespace Exemplar::Python

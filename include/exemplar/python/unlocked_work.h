@@ -8,9 +8,9 @@
 
 namespace Exemplar::Python
 {
-  /// While it lives, other threads of Python run. Python kills threads that want its lock while it
-  /// ends, and C++ ends the process for that: end_all(), called first at Python's end, waits for
-  /// all such work.
+  /// Releases Python's lock while it lives, so that other threads of Python run. At its end Python
+  /// kills threads that want the lock, for which C++ ends the process: end_all(), called first
+  /// then, waits for all such work.
   class UnlockedWork
   {
   public:
@@ -22,8 +22,8 @@ namespace Exemplar::Python
     operator=(const UnlockedWork &)
         = delete;
 
-    /// To be called with Python's lock before such work and now and then within. If Python ends, it
-    /// throws SystemExit, at which a thread ends without a word.
+    /// Throws SystemExit, which ends a thread silently, if Python ends. To be called with Python's
+    /// lock before such work and now and then within.
     static void
     check();
 

@@ -6,7 +6,7 @@
 
 namespace Exemplar::Python
 {
-  /// Of exemplar.Problem write().
+  /// Adds to exemplar.Problem write().
   void
   add_write(ProblemClass &problem);
 } // namespace Exemplar::Python

@@ -26,7 +26,7 @@ namespace Exemplar
     /// Statements that tell of the faces behind them; the first three make groups.
     constexpr std::array<std::string_view, 5> kept{ { "g", "usemtl", "o", "s", "mtllib" } };
 
-    /// What a face belongs to by g, usemtl and o.
+    /// Names that a face has by g, usemtl and o.
     using ObjGroups = std::array<std::string, 3>;
 
     class ObjReader
@@ -134,7 +134,7 @@ namespace Exemplar
       require_few(in, surface.vertices.size(), "vertices");
     }
 
-    /// What is no number stands for 0.
+    /// Reads vt; a word that is no number stands for 0.
     void
     ObjReader::read_texture_point()
     {
@@ -165,8 +165,8 @@ namespace Exemplar
       require_few(in, surface.faces.size(), "faces");
     }
 
-    /// Of i/j or i/j/k. Numbers that are none, or not for all corners, are as good as absent: a
-    /// surface may be used whose texture may not.
+    /// Texture points of a face, from corners i/j or i/j/k. Invalid or missing numbers count as
+    /// none, so that a surface may be used whose texture may not.
     void
     ObjReader::add_texture_of_face(const std::size_t n_corners)
     {
@@ -189,7 +189,7 @@ namespace Exemplar
       if (points.size() < n_corners)
         points.clear();
       if (points.empty() && surface.face_texture_points.empty())
-        return; // no face has any so far
+        return; // no face has had texture points so far
       surface.face_texture_points.resize(surface.faces.size());
       surface.face_texture_points.push_back(std::move(points));
     }
@@ -207,7 +207,8 @@ namespace Exemplar
           points.clear();
     }
 
-    /// Of i, i/j, i//k or i/j/k; -1 is the vertex read last. The normal's number is not looked at.
+    /// The vertex of a corner i, i/j, i//k or i/j/k, where -1 is the vertex read last; k, the
+    /// normal, is ignored.
     unsigned int
     ObjReader::vertex_of(const std::string_view corner) const
     {
@@ -220,7 +221,7 @@ namespace Exemplar
       return static_cast<unsigned int>(index > 0 ? index - 1 : n + index);
     }
 
-    /// At the end, because vertices may follow the faces that use them.
+    /// Checks vertex numbers after reading, because vertices may follow the faces that use them.
     void
     ObjReader::check_indices() const
     {

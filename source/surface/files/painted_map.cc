@@ -72,7 +72,7 @@ namespace Exemplar
         while (std::getline(in, text))
         {
           if (line == 0 && text.compare(0, 3, "\xEF\xBB\xBF") == 0)
-            text.erase(0, 3); // a mark that spreadsheets put before UTF-8
+            text.erase(0, 3); // byte order mark of UTF-8
           ++line;
           if (text.find_first_not_of(" \t\r") < text.size() && text[0] != '#')
             read_line(cells_of(text));
@@ -125,7 +125,8 @@ namespace Exemplar
         ++n_rows;
       }
 
-      /// Of spreadsheets where the comma is the decimal sign.
+      /// Refuses ; and tabs, by which spreadsheets separate cells where the comma is the decimal
+      /// sign.
       void
       refuse_other_separators(const Cells &cells) const
       {
@@ -188,7 +189,8 @@ namespace Exemplar
       std::size_t         vertex_column = none, value_column = none;
     };
 
-    /// The distances from each vertex to the next do not depend on axes; their ratio is the unit's.
+    /// Refuses vertices whose distances to the next are not in proportion to those of the surface:
+    /// distances do not depend on axes, and their ratio is that of the units.
     void
     check_same_vertices(const std::vector<SurfaceMesh::Vertex> &found,
                         const SurfaceMesh                      &surface,

@@ -15,14 +15,14 @@ namespace Exemplar
 {
   namespace
   {
-    /// What programs call the part that a face belongs to.
+    /// Names that programs use for the part that a face belongs to.
     constexpr std::array<std::string_view, 15> label_names{
       { "label", "labels", "group", "group_id", "region", "boundary_id", "material_index",
         "material", "material_id", "object_id", "segment", "part", "category_id", "patch",
         "face_label" }
     };
 
-    /// Colours go from 0 to 255 in the file.
+    /// Factor of the values of a type: 1/255 for one byte, as colours have, else 1.
     double
     unit_of(const PlyType type)
     {
@@ -37,7 +37,7 @@ namespace Exemplar
       SurfaceMesh
       read();
 
-      /// The values of a property of the vertices come along.
+      /// Reads the surface and the values of a property of its vertices.
       PlyAttribute
       read_with(const std::string &name);
 
@@ -64,7 +64,7 @@ namespace Exemplar
       SurfaceMesh                      surface;
       GroupedFaces                     faces;
       bool                             ascii = true;
-      std::size_t                      word  = 0; ///< of the line, to be read next
+      std::size_t                      word  = 0; ///< next word of the line
       std::vector<std::vector<double>> values;
       bool                             wants_attribute = false;
       std::string                      attribute;

@@ -171,7 +171,7 @@ namespace Exemplar
       const auto        first = static_cast<double>(in.raw<float>());
       const auto        rate  = static_cast<double>(in.raw<float>());
       const std::size_t n     = read_count(in, name, "samples");
-      require_points(points, n, name); // before as many times are made
+      require_points(points, n, name); // checked before n times are allocated
       for (std::size_t k = 0; k < n; ++k)
         points.times.push_back((first + static_cast<double>(k) * rate) / frames_per_second);
       require_increasing(points.times, name);

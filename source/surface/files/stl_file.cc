@@ -83,7 +83,7 @@ namespace Exemplar
       for (std::uint32_t f = 0; f < n; ++f, in.count())
       {
         for (unsigned int i = 0; i < 3; ++i)
-          in.raw<float>(); // the normal, which the corners' order says better
+          in.raw<float>(); // the normal; the order of corners gives it better
         std::vector<unsigned int> face(3);
         for (unsigned int &vertex : face)
         {

@@ -27,7 +27,7 @@ namespace Exemplar
       return text;
     }
 
-    /// As many as tell a format; empty if the file cannot be read.
+    /// Bytes enough to recognise a format; empty if the file cannot be read.
     std::string
     first_bytes(const std::filesystem::path &file)
     {

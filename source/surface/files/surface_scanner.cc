@@ -35,8 +35,8 @@ namespace Exemplar
       const bool two = bytes.compare(end, 2, "\r\n") == 0;
       return std::min(end + (two ? 2 : 1), bytes.size());
     }
-    /// Without the byte order mark that editors put before UTF-8. Files that are no text hold bytes
-    /// that are 0.
+    /// Bytes without the byte order mark that editors put before UTF-8, if they are text: other
+    /// files hold bytes that are 0.
     std::string
     without_mark(std::string bytes)
     {

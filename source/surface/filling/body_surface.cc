@@ -41,17 +41,17 @@ namespace Exemplar
              + " % from the old one (mean " + short_text(100. * back.mean / diagonal) + " %)";
     }
 
-    /// Openings that a wrap closes, over the diagonal. A finer wrap than the cells need costs minutes
-    /// for nothing.
+    /// Size of the openings that a wrap closes, over the diagonal. A finer wrap than the cells need
+    /// costs minutes for nothing.
     double
     openings(const unsigned int n_cells)
     {
       return std::max(.01, .25 / std::cbrt(n_cells));
     }
 
-    /// Whether a wrap at a distance is no body: it has gone through an opening and runs along both sides
-    /// of the surface, so that its volume is its area times the distance. Parts as thick as the
-    /// openings that are closed have ten times that.
+    /// Whether a wrap at a distance is no body: it has gone through an opening and runs along both
+    /// sides of the surface, so that its volume is its area times the distance. Parts as thick as
+    /// the openings that are closed have ten times that.
     bool
     is_thin_shell(const TriangleSurface &wrapped, const double distance)
     {
@@ -61,7 +61,7 @@ namespace Exemplar
       return std::abs(enclosed_volume(wrapped)) < 4. * area * distance;
     }
 
-    /// The faults that are left.
+    /// Wraps the surface; returns the faults that are left.
     std::vector<std::string>
     wrap_surface(BodySurface &body, const double openings)
     {
@@ -74,7 +74,8 @@ namespace Exemplar
       return check_surface({ body.surface, {} }).faults;
     }
 
-    /// Repaired; if there are still faults, wrapped. Returns the faults of the last attempt.
+    /// Repairs the surface and, if there are still faults, wraps it. Returns the faults of the last
+    /// attempt.
     std::vector<std::string>
     mend_surface(BodySurface &body, const unsigned int n_cells)
     {

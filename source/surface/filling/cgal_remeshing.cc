@@ -37,8 +37,9 @@ namespace Exemplar
                         from_cgal(mesh.point(mesh.vertex(edge, 1)))));
     }
 
-    /// Let go of kept edges where many are nearer to each other than the new edges are long: no triangles
-    /// of that size fit between them, and those that must follow all of them intersect.
+    /// Releases kept edges where many are nearer to each other than the new edges are long: no
+    /// triangles of that size fit between them, and those that had to follow all of them would
+    /// intersect.
     void
     drop_crowded_edges(const CgalMesh &mesh, const double edge_length, Kept &kept)
     {
@@ -60,7 +61,7 @@ namespace Exemplar
           kept[edge] = false;
     }
 
-    /// Sharp edges that hang together over a length that is seen.
+    /// Keeps sharp edges that form chains of at least min_chain edge lengths.
     void
     keep_sharp_edges(const CgalMesh &mesh, const double edge_length, Kept &kept)
     {
@@ -131,14 +132,14 @@ namespace Exemplar
       }
     }
 
-    /// What remeshing leaves alone.
+    /// Vertices and triangles that remeshing leaves alone.
     struct Held
     {
       std::vector<bool> vertices;
       std::vector<bool> triangles; ///< none: no triangle
     };
 
-    /// A vertex map of what is held of a surface, of which the mesh is a copy.
+    /// A vertex map of the held vertices of a surface, of which the mesh is a copy.
     auto
     map_of_held(const Held &held, CgalMesh &mesh)
     {
@@ -184,8 +185,8 @@ namespace Exemplar
       return from_cgal_mesh(mesh, [&](const CgalMesh::Face_index face) { return groups[face]; });
     }
 
-    /// Vertices that are farther from a remeshed surface than half of `spacing`, the farthest first,
-    /// with that spacing: the tips of ears and tails, which relaxation rounds off.
+    /// Vertices farther from a remeshed surface than half of `spacing`, chosen from the farthest on
+    /// and no two nearer than `spacing`: the tips of ears and tails, which relaxation rounds off.
     std::vector<bool>
     lost_tips(const TriangleSurface &surface, const TriangleSurface &remeshed, const double spacing)
     {

@@ -80,7 +80,8 @@ namespace Exemplar
       }
     }
 
-    /// A volume for each shell that bounds a region from outside; the region of each volume.
+    /// Adds a volume for each shell that bounds a region from outside, tagged by region; returns
+    /// the number of regions.
     unsigned int
     add_volumes(const TriangleSurface           &surface,
                 const std::vector<unsigned int> &shells,
@@ -152,7 +153,7 @@ namespace Exemplar
       }
     }
 
-    /// The parts make the whole, or something is amiss.
+    /// Checks that the volumes of the cells sum to that of the body.
     void
     check_volume(const TetrahedralMesh &mesh, const double expected)
     {
@@ -165,7 +166,7 @@ namespace Exemplar
         throw_unfilled("its cells have another volume than the surface encloses");
     }
 
-    /// What the outermost shells enclose, less the cavities.
+    /// The volume that the outermost shells enclose, less the cavities.
     double
     filled_volume(const TriangleSurface           &surface,
                   const std::vector<unsigned int> &shells,
@@ -211,7 +212,7 @@ namespace Exemplar
     {
       throw;
     }
-    catch (...) // gmsh's own error has nothing to say
+    catch (...) // gmsh's own error has no useful message
     {
       throw_unfilled(last_error());
     }

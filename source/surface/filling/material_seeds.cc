@@ -100,7 +100,7 @@ namespace Exemplar
       return sum;
     }
 
-    /// For each region the seeds in it.
+    /// The seeds in each region.
     using RegionSeeds = std::map<unsigned int, std::vector<const MaterialSeed *>>;
 
     RegionSeeds

@@ -85,7 +85,8 @@ namespace Exemplar
         return poor;
       }
 
-      /// Of the cells around a node; negative if one of them is not of positive volume.
+      /// The smallest dihedral angle of the cells around a node [degrees]; negative if one of them
+      /// is not of positive volume.
       double
       worst_around(const unsigned int node) const
       {
@@ -100,7 +101,7 @@ namespace Exemplar
         return worst;
       }
 
-      /// Search along the axes, with shorter and shorter steps.
+      /// Moves a node by a search along the axes, with shorter and shorter steps.
       bool
       improve(const unsigned int node)
       {
@@ -219,7 +220,7 @@ namespace Exemplar
       std::vector<std::vector<std::size_t>> cells_around;
       std::vector<bool>                     on_boundary;
       std::vector<bool>                     gone;
-      std::map<Triangle, unsigned int>      boundary_face; ///< by ascending nodes
+      std::map<Triangle, unsigned int>      boundary_face; ///< by sorted nodes
       std::set<Edge>                        boundary_edges;
     };
   } // namespace

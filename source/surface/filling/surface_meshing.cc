@@ -19,10 +19,10 @@ namespace Exemplar
   namespace
   {
     constexpr unsigned int n_attempts = 8;
-    /// Nearer to the wanted number of cells than this, nothing more is tried.
+    /// Relative error in the number of cells below which nothing more is tried.
     constexpr double near_enough = .05;
 
-    /// About how many triangles a surface has with edges of this length.
+    /// Estimated number of triangles of a surface with edges of this length.
     double
     n_triangles(const TriangleSurface &surface, const double edge_length)
     {
@@ -54,17 +54,17 @@ namespace Exemplar
                             + cells_option + ").");
     }
 
-    /// About the length of edges of a body of so many cells: in gmsh's meshes a cell has about a tenth
-    /// of its edge's cube.
+    /// Estimated edge length of a body with so many cells: in gmsh's meshes a cell has about a
+    /// tenth of the volume of the cube over its edge.
     double
     edge_length_of(const TriangleSurface &surface, const double n_cells)
     {
       return std::cbrt(10. * std::abs(enclosed_volume(surface)) / n_cells);
     }
 
-    /// A surface that has many times the triangles that cells of this size can follow, with edges of a
-    /// part of their size, so that attempts to fill it take no longer than those of a coarse one; itself
-    /// if it has fewer, or cannot be remeshed without intersections.
+    /// A surface with many times the triangles that cells of this size can follow, remeshed with
+    /// edges of a part of their size, so that attempts to fill it take no longer than those of a
+    /// coarse one; the surface itself if it has fewer, or cannot be remeshed without intersections.
     TriangleSurface
     without_excess(const TriangleSurface &surface,
                    const double           n_cells,
@@ -90,7 +90,7 @@ namespace Exemplar
     struct FilledSurface
     {
       TetrahedralMesh mesh;
-      bool            has_near_sheets = false; ///< that intersected in some attempt
+      bool            has_near_sheets = false; ///< whether sheets intersected in some attempt
     };
 
     /// The mesh with the number of cells nearest to the one wanted: n ~ h^-p with p from the last
@@ -139,7 +139,7 @@ namespace Exemplar
         last_n = n;
         h = std::min(h * std::pow(n / n_cells, 1. / power), .5 * diagonal_of(surface.vertices));
         if (h == last_h)
-          break; // no number nearer
+          break; // no better edge length
       }
       return best;
     }
@@ -165,9 +165,9 @@ namespace Exemplar
                  && now.lost < 1.5 * best.judgement.lost);
     }
 
-    /// Of a few ways of remeshing the first whose mesh has no slivers, or the one with the fewest: with the
-    /// sharp edges of the surface kept, or without them where they are noise, and with near sheets held, or
-    /// refined. Throws SolverFailure if none gives a mesh.
+    /// The first mesh without slivers, or the one with the fewest, from a few ways of remeshing:
+    /// with the sharp edges of the surface kept, or not, where they may be noise, and with near
+    /// sheets held, or refined. Throws SolverFailure if none gives a mesh.
     JudgedMesh
     best_of_ways(const BodySurface           &body,
                  const TriangleSurface       &surface,
@@ -187,7 +187,7 @@ namespace Exemplar
             if (best.judgement.angles.n_slivers == 0)
               return best;
             if (!filled.has_near_sheets)
-              break; // the other way is the same
+              break; // the other treatment would give the same
           }
           catch (const SolverFailure &)
           {
@@ -197,7 +197,8 @@ namespace Exemplar
       return best;
     }
 
-    /// Of few cells a sliver may be the luck of their number: then others are tried.
+    /// The best mesh; for few cells, where slivers may go with the number of cells, other numbers
+    /// are tried, too.
     JudgedMesh
     best_mesh(const BodySurface &body, const SurfaceMeshingOptions &options)
     {

@@ -32,7 +32,8 @@ namespace Exemplar
       return distinct.size() == names.size() ? ids : in_order;
     }
 
-    /// Whether each triangle of the boundary has cells on one side only: others lie between regions.
+    /// Whether each triangle of the boundary has cells on one side only: others lie between
+    /// regions.
     std::vector<bool>
     outer_triangles(const TetrahedralMesh &mesh)
     {

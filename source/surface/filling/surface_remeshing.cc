@@ -40,8 +40,8 @@ namespace Exemplar
       return of_triangle;
     }
 
-    /// Remeshing changes the order of triangles: give back that of the shells, by which regions are
-    /// numbered.
+    /// Restores the order of the shells, by which regions are numbered: remeshing changes the order
+    /// of triangles.
     void
     restore_order(const TriangleSurface &original, TriangleSurface &remeshed)
     {
@@ -117,8 +117,8 @@ namespace Exemplar
       return " near " + short_text(x) + ", " + short_text(y) + ", " + short_text(z);
     }
 
-    /// With the triangles held that are near to intersections, of `evenly` first and then of what came of
-    /// that; none if that does not help.
+    /// Remeshes with the triangles held that are near to intersections, first of `evenly` and then
+    /// of the result; none if that does not help.
     std::optional<TriangleSurface>
     hold_near_sheets(const TriangleSurface &surface,
                      const double           edge_length,
@@ -137,7 +137,7 @@ namespace Exemplar
       return {};
     }
 
-    /// With shorter edges; none if that does not help.
+    /// Remeshes with shorter edges; none if that does not help.
     std::optional<TriangleSurface>
     refine(const TriangleSurface &surface, const double edge_length, const bool keep_edges)
     {

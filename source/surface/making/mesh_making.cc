@@ -17,7 +17,7 @@ namespace Exemplar
   {
     using Json = nlohmann::ordered_json;
 
-    /// What a mesh is allowed [s]: far more than any has taken, but not for ever.
+    /// Time limit of a mesh [s]: far more than any has taken.
     double
     time_limit(const SurfaceMeshingOptions &options)
     {

@@ -20,11 +20,11 @@ namespace Exemplar
     using Pairs    = std::vector<std::pair<unsigned int, unsigned int>>;
     using Points   = FoldPotential::Points;
 
-    /// How far towards a pose the surface is opened, the least way first.
+    /// Shares of the way to a pose by which the surface is opened, ascending.
     constexpr std::array<double, 4> ways{ { .25, .5, .75, 1. } };
 
-    /// How strongly cells that come back to rest follow the surface, over their own stiffness: this is
-    /// the body itself, no pose of it.
+    /// Stiffness with which cells that are carried back to rest follow the surface, over their own;
+    /// it is that large because this is the rest shape of the body, no pose of it.
     constexpr double attach_at_rest = 3000.;
 
     /// A pose, moved rigidly to where it is nearest to the surface at rest.
@@ -56,12 +56,12 @@ namespace Exemplar
       return poses;
     }
 
-    /// A place of the surface, and where its sheets cross there.
+    /// Positions of the surface's vertices, and the pairs of triangles that cross there.
     struct Opening
     {
       Vertices    vertices;
       Pairs       crossing;
-      std::string how; ///< for the user
+      std::string how; ///< description for the user
     };
 
     Vertices
@@ -73,8 +73,8 @@ namespace Exemplar
       return result;
     }
 
-    /// The opening with one more pose added that leaves the fewest pairs crossing, and the least way
-    /// towards it; or itself.
+    /// The opening with one more pose added that leaves the fewest pairs crossing, by the smallest
+    /// share of the way to it that does; or `now` itself.
     Opening
     opened_further(const Opening               &now,
                    const Vertices              &rest,

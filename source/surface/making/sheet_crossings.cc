@@ -10,7 +10,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// Faults by which edges and vertices are not as self_intersections() needs them.
+    /// Faults that violate the preconditions of self_intersections().
     const std::vector<std::string> unsound
         = { "edges of more than two faces", "vertices where the surface touches itself",
             "faces turned against their neighbours", "one-sided" };

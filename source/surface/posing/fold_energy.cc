@@ -33,7 +33,7 @@ namespace Exemplar
                value * (10. / 9. * rate * rate - 2. / 3. * chi.second / chi.value) };
     }
 
-    /// (det^2 + 1) / chi, what the volume costs.
+    /// (det^2 + 1) / chi, the volumetric term.
     OfDeterminant
     volume_term(const OfDeterminant &chi, const double det)
     {

@@ -8,7 +8,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// Stiffness of springs that hold nodes, over that of the body.
+    /// Stiffness of the springs that hold nodes, over that of the body.
     constexpr double holding = 1e6;
   } // namespace
 

@@ -11,11 +11,11 @@ namespace Exemplar
 {
   namespace
   {
-    /// The cell with its volume [m^3].
+    /// A cell at rest, with its volume [m^3].
     Tetrahedron<double>
     tetrahedron_at_rest(const FoldPotential::Points &nodes, const std::array<unsigned int, 4> &cell)
     {
-      Matrix3<double> edges; // in columns
+      Matrix3<double> edges; // edge vectors as columns
       for (int a = 0; a < 3; ++a)
         for (int d = 0; d < 3; ++d)
           edges[d][a] = nodes[cell[a + 1]][d] - nodes[cell[0]][d];
@@ -32,14 +32,15 @@ namespace Exemplar
       return result;
     }
 
-    /// The least curvature of a mode that a Newton step counts on, as a share of the stiffness at
-    /// rest: flatter and concave ones would make it long without making it better.
+    /// Lower bound of the eigenvalues of the energy's Hessian by F in a Newton step; those of
+    /// strains at rest are of order 1. Flatter and concave modes would make the step long without
+    /// making it better.
     constexpr double min_stiffness = 1e-3;
 
-    /// Below so many cells threads would wait for each other longer than they work.
+    /// Number of cells below which threads would wait for each other longer than they work.
     constexpr std::size_t few_cells = 2000;
 
-    /// So many cells' stiffness is held at a time.
+    /// Number of cells whose stiffness is held in memory at a time.
     constexpr std::size_t n_at_once = 4096;
   } // namespace
 
@@ -114,7 +115,8 @@ namespace Exemplar
     return deformation_gradient(rest[cell], corners);
   }
 
-  /// function(c) of each cell c, on threads: sums over them are then made in the order of the cells.
+  /// The values function(c) of all cells c, by threads: sums over them are then made in the order
+  /// of the cells.
   template <typename Value, typename Function>
   std::vector<Value>
   FoldPotential::of_cells(const Function &function) const
@@ -169,7 +171,8 @@ namespace Exemplar
                             { return determinant(gradient_of_cell(x, c)); });
   }
 
-  /// Block (i, j) of nodes at `position` of the node pattern, j its column; see block_pattern().
+  /// Adds the block of a pair of nodes at `position` of the node pattern, in column j; see
+  /// block_pattern().
   void
   FoldPotential::add_to_block(const int              position,
                               const int              j,
@@ -190,7 +193,7 @@ namespace Exemplar
   FoldPotential::blocks_of_cell(const std::size_t c, const Points &x, const double eps) const
   {
     const FoldModes modes = fold_modes(gradient_of_cell(x, c), eps);
-    double          pushes[9][4][3]; // of a mode on a node
+    double          pushes[9][4][3]; // derivative of a mode by the place of a node
     double          stiffness[9];
     for (int m = 0; m < 9; ++m)
     {

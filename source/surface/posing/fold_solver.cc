@@ -16,43 +16,46 @@ namespace Exemplar
     constexpr unsigned int max_settling     = 40;
     constexpr unsigned int max_attempts     = 20;
 
-    /// Settled if a step lowers the energy by no more than this share of it.
+    /// Relative decrease of the energy in a step at which Newton's method has converged.
     constexpr double settled = 1e-5;
 
-    /// The same on the way to stronger springs.
+    /// Relative decrease of the energy at which to stop on the way to stronger springs.
     constexpr double nearly_settled = 1e-4;
 
-    /// Springs of the skin become so many times as strong, so many times.
+    /// Factor by which springs of the skin are made stronger, and how often.
     constexpr double       strengthening  = 4.;
     constexpr unsigned int n_strengthened = 5;
 
-    /// The least det F of cells around vertices that are drawn at all, and that are drawn ever more
-    /// strongly. The former is what the least det F of a pose may come to, as well.
+    /// Springs act at vertices around which det F is greater than least_drawn, and become stronger
+    /// where it is greater than least_strengthened. least_drawn also bounds how far the least det F
+    /// of a pose may fall.
     constexpr double least_drawn = 0.05, least_strengthened = 0.2;
 
-    /// Vertices are drawn on as long as the mean of their errors falls to this share at least.
+    /// The springs are strengthened again if the mean error of the vertices falls to this share at
+    /// least.
     constexpr double worthwhile = 0.99;
 
-    /// If it falls to this share, a few cells in folds may pay for it: the least det F, below least_drawn, and the
-    /// greatest error of a vertex may come to so much of what they were. If it falls by less, the former must not fall,
-    /// and the latter must stay below what it was before any spring became stronger.
+    /// If the mean error falls to much_nearer, det F below least_drawn may fall to hardly_less of
+    /// what it was, and the greatest error of a vertex may rise to hardly_more times that at the
+    /// start. If it falls by less, det F below least_drawn must not fall, and the greatest error
+    /// may rise to hardly_more times the last one, but not beyond that at the start.
     constexpr double much_nearer = 0.95, hardly_less = 0.9, hardly_more = 1.05;
 
-    /// The least share by which the energy counts as lowered when eps is reduced. Garanzha et al.
-    /// take .1; four times as much is faster and mostly does, where a step changes the energy by no
-    /// more than a calm share.
+    /// Least relative decrease of the energy that is assumed when eps is reduced. Garanzha et al.
+    /// take .1; four times as much is faster and mostly suffices, where a step changes the energy
+    /// by no more than a share `calm`.
     constexpr double hasty = 0.4, patient = 0.1, calm = 4e-4;
 
-    /// Cells that are inverted at a smaller eps stay so.
+    /// Least eps: cells that are inverted at it stay so.
     constexpr double min_eps = 5e-3;
 
-    /// Eps to begin with: from far away, and near a solution.
+    /// Eps at the beginning, and eps below which few inverted cells are left to be treated alone.
     constexpr double far_eps = 1., near_eps = 0.1;
 
-    /// With a node in so many in inverted cells these are looked at alone.
+    /// Inverted cells are treated alone if at most one node in so many is theirs.
     constexpr std::size_t few = 200;
 
-    constexpr unsigned int first_rings = 4; ///< around inverted cells
+    constexpr unsigned int first_rings = 4; ///< rings of cells around inverted ones
 
     double
     minimum(const std::vector<double> &values)
@@ -82,11 +85,11 @@ namespace Exemplar
       return nodes;
     }
 
-    /// The least det F of the cells around the nodes that each vertex of the skin goes with.
+    /// The least det F of the cells around the nodes that carry each vertex of the skin.
     std::vector<double>
     determinants_at_skin(const FoldPotential &potential, const Points &x)
     {
-      constexpr double          relevant     = 0.1; // others are of recovered derivatives
+      constexpr double          relevant     = 0.1; // smaller ones are of recovered derivatives
       const std::vector<double> determinants = potential.determinants(x);
       std::vector<double>       of_node(x.size(), std::numeric_limits<double>::infinity());
       for (std::size_t c = 0; c < determinants.size(); ++c)
@@ -110,7 +113,8 @@ namespace Exemplar
 
   FoldSolver::FoldSolver(FoldPotential &potential) : potential(potential), system(potential) {}
 
-  /// As-rigid-as-possible (Sorkine and Alexa 2007) on tetrahedra, from the harmonic filling.
+  /// The as-rigid-as-possible deformation (Sorkine and Alexa 2007) of the tetrahedra, from the
+  /// harmonic one.
   Points
   FoldSolver::nearest_rotations() const
   {
@@ -131,8 +135,8 @@ namespace Exemplar
     return x;
   }
 
-  /// One step of Newton's method, halved until the energy falls as it should (Armijo). Returns the
-  /// share of the energy, counted from -5, that is gone.
+  /// A damped Newton step, halved until the energy falls as it should (Armijo). Returns the
+  /// decrease of the energy over the energy + 5, which is positive.
   double
   FoldSolver::step(Result &result, const double eps)
   {
@@ -158,7 +162,8 @@ namespace Exemplar
     return 0.;
   }
 
-  /// Eps is reduced as Garanzha et al. (2021) do it, Eq. (6).
+  /// Takes Newton steps with eps reduced as Garanzha et al. (2021) do it, Eq. (6), until no cell is
+  /// inverted, eps is at its least, or few nodes are left in inverted cells.
   void
   FoldSolver::untangle(Result &result, double eps, const double min_share, const std::size_t n_left)
   {
@@ -182,7 +187,7 @@ namespace Exemplar
     }
   }
 
-  /// Springs of the cells that are inverted and of their neighbours' nodes hold half as much.
+  /// Halves the stiffness of the springs at the nodes of inverted cells and of their neighbours.
   void
   FoldSolver::release(Result &result)
   {
@@ -194,8 +199,9 @@ namespace Exemplar
         potential.attachment.stiffness[i] *= 0.5;
   }
 
-  /// Once more around the cells that are inverted, with the patience that would be dear for the
-  /// whole body, with more and more of the body free to move and softer and softer springs.
+  /// Repeats the search around inverted cells alone, by smaller reductions of eps, which would be
+  /// too slow for the whole body, with more and more of the body free to move and softer and softer
+  /// springs.
   void
   FoldSolver::untangle_neighbourhoods(Result &result, const Points &rest)
   {

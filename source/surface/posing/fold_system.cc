@@ -9,11 +9,12 @@ namespace Exemplar
 {
   namespace
   {
-    /// A direction for a line search needs no more digits, and no more iterations.
+    /// Relative tolerance and greatest number of iterations of conjugate gradients; a direction for
+    /// a line search needs no better.
     constexpr double       cg_tolerance   = 1e-2;
     constexpr unsigned int max_iterations = 30;
 
-    /// The lower triangle of a matrix with the second derivative of springs.
+    /// A symmetric matrix, given by its lower triangle, plus the Hessian of the skin's springs.
     struct MatrixWithSprings
     {
       const SymmetricPattern    &pattern;
@@ -73,8 +74,8 @@ namespace Exemplar
     factorize_shifted();
   }
 
-  /// The matrix is positive, but nearly collapsed cells may be so stiff that rounding makes pivots
-  /// negative: a shift of the diagonal then helps.
+  /// Factorizes the matrix, with growing shifts of its diagonal if need be: it is positive, but
+  /// nearly collapsed cells may be so stiff that rounding makes pivots negative.
   void
   FoldSystem::factorize_shifted()
   {

@@ -80,7 +80,7 @@ namespace Exemplar
       : nodes(nodes), attachment(std::move(of_boundary)),
         potential(std::make_unique<FoldPotential>(nodes, cells, n_threads)), solver(*potential)
   {
-    // volume over area is half the radius of a limb, and the moduli of the body are 2 to 4.5
+    // volume / area is half the radius of a limb; the body's dimensionless moduli are 2 to 4.5
     const auto  &areas  = attachment.get_areas();
     const double area   = std::accumulate(areas.begin(), areas.end(), 0.);
     const double length = potential->get_volume() / area;

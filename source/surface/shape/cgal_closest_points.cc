@@ -14,7 +14,8 @@ namespace Exemplar
     using Triangles = std::vector<Kernel::Triangle_3>;
     using Tree      = TriangleSearch<Kernel, Triangles::const_iterator>;
 
-    /// Shares of the corners at a point of the triangle, by areas; rounding is cut off.
+    /// Barycentric coordinates of a point in a triangle, from areas, without the rounding that
+    /// makes them negative.
     std::array<double, 3>
     shares(const Kernel::Triangle_3 &triangle, const Kernel::Point_3 &point)
     {
@@ -24,7 +25,7 @@ namespace Exemplar
       double                sum = 0.;
       for (int a = 0; a < 3; ++a)
       {
-        const auto &b = triangle[a + 1], &c = triangle[a + 2]; // CGAL counts on from 0
+        const auto &b = triangle[a + 1], &c = triangle[a + 2]; // CGAL takes indices modulo 3
         result[a] = std::max(0., CGAL::cross_product(b - point, c - point) * normal);
         sum += result[a];
       }

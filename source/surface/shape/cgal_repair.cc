@@ -39,7 +39,7 @@ namespace Exemplar
       return surface;
     }
 
-    /// Says what was done, if anything.
+    /// Notes repairs that changed something.
     class Report
     {
     public:
@@ -56,7 +56,7 @@ namespace Exemplar
       std::vector<std::string> &lines;
     };
 
-    /// Vertices joined, faces turned; edges and vertices with one sheet of surface each.
+    /// Joins vertices, turns faces, and makes edges and vertices manifold.
     CgalMesh
     make_manifold(const TriangleSurface &surface, Report &report)
     {
@@ -82,7 +82,7 @@ namespace Exemplar
       return mesh;
     }
 
-    /// The faces that fill it.
+    /// Fills a hole; returns the new faces.
     std::vector<CgalMesh::Face_index>
     fill_hole(CgalMesh &mesh, const CgalMesh::Halfedge_index border)
     {
@@ -109,7 +109,7 @@ namespace Exemplar
       report.add("holes filled", n_filled);
     }
 
-    /// Loose parts that are too small to be meant.
+    /// Drops loose parts that are too small to be intended.
     void
     drop_small_shells(TriangleSurface &surface, Report &report)
     {

@@ -24,7 +24,7 @@ namespace Exemplar
              + ")";
     }
 
-    /// One surface under the checks, which each may rely on those before.
+    /// The checks of one surface; each may rely on those before.
     class SurfaceCheck
     {
     public:
@@ -156,14 +156,14 @@ namespace Exemplar
                         numbers.size(), list_numbers(numbers)));
     }
 
-    /// As flat as cells are refused for, see orient_tetrahedra().
+    /// Finds triangles without area, flat by the tolerance of orient_tetrahedra().
     void
     SurfaceCheck::find_flat()
     {
       std::vector<unsigned int> flat;
       for (unsigned int t = 0; t < surface.triangles.size(); ++t)
       {
-        double longest = 0.; // squared
+        double longest = 0.; // square of the longest edge
         for (unsigned int k = 0; k < 3; ++k)
         {
           const SpaceVector side = minus(surface.vertices[surface.triangles[t][(k + 1) % 3]],
@@ -194,7 +194,7 @@ namespace Exemplar
       UnionFind together(surface.vertices.size());
       for (const TriangleSide &side : open)
         together.join(side.vertices[0], side.vertices[1]);
-      std::map<unsigned int, std::size_t> n_edges; // of each hole, by its first vertex
+      std::map<unsigned int, std::size_t> n_edges; // of a hole, at its first vertex
       for (const TriangleSide &side : open)
       {
         ++n_edges[together.root(side.vertices[0])];
@@ -241,7 +241,7 @@ namespace Exemplar
         add_fault("faces turned against their neighbours", n_turned, face_numbers(turned));
       if (n_crowded > 0)
         return;
-      // what majority cannot settle: a Moebius strip
+      // sides that no turning makes consistent: a Moebius strip
       const auto turned_sides = sorted_sides(turned_surface);
       for_each_edge(turned_sides,
                     [&](const TriangleSide *const first, const TriangleSide *const last)
@@ -258,7 +258,7 @@ namespace Exemplar
     void
     SurfaceCheck::find_fans()
     {
-      UnionFind  fans(3 * surface.triangles.size()); // of corners
+      UnionFind  fans(3 * surface.triangles.size()); // sets of corners
       const auto join = [&](const TriangleSide &a, const TriangleSide &b)
       {
         // the triangles go through their edge in opposite directions
@@ -306,7 +306,7 @@ namespace Exemplar
                     + face_numbers(triangles));
     }
 
-    /// Of closed shells that do not intersect.
+    /// Finds shells side by side or inside out. Precondition: closed shells that do not intersect.
     void
     SurfaceCheck::find_shells()
     {
@@ -320,7 +320,7 @@ namespace Exemplar
           if (around[shell] == findings.n_shells)
           {
             const TriangleSurface part = shell_of(surface, findings.shells, shell);
-            if (!where.empty()) // those beside the first
+            if (!where.empty()) // shells beside the first
               add_shell("shells side by side", shell);
             where += fmt::format("{}{} triangles at {}", where.empty() ? "of " : ", ",
                                  part.triangles.size(),

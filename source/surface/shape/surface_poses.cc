@@ -15,7 +15,7 @@ namespace Exemplar
 {
   namespace
   {
-    /// Sizes differ by less in any pose of a body, and by more between units.
+    /// Ratio of sizes: smaller for any pose of a body, greater between units.
     constexpr double max_ratio = 8.;
 
     /// A pose is taken for a mirror image if it fits one this many times better than it fits the
@@ -60,7 +60,7 @@ namespace Exemplar
       return points;
     }
 
-    /// Sum of squares that is left when points are moved rigidly to targets.
+    /// Sum of squared distances after the best rigid motion of points to targets.
     double
     misfit(const std::vector<dealii::Point<3>> &points,
            const std::vector<dealii::Point<3>> &targets)
@@ -83,7 +83,7 @@ namespace Exemplar
       return std::sqrt(sum / static_cast<double>(points.size()));
     }
 
-    /// How much longer most sides of the faces are than at rest.
+    /// Median ratio of the lengths of sides in the pose and at rest.
     double
     median_stretch(const TriangleSurface &rest, const TriangleSurface &pose)
     {
@@ -103,7 +103,8 @@ namespace Exemplar
       return *middle;
     }
 
-    /// A surface of the same size whose faces reach across it has its vertices in another order.
+    /// Refuses a surface of the same size whose faces reach across it: its vertices are in another
+    /// order.
     void
     check_vertex_order(const TriangleSurface &rest,
                        const TriangleSurface &pose,
@@ -138,7 +139,7 @@ namespace Exemplar
       const double before = enclosed_volume(rest), after = enclosed_volume(pose);
       const double unit              = std::pow(total_area(rest), 1.5);
       const bool   turned_inside_out = before * after < 0. && std::abs(before) > 1e-3 * unit
-                                     && std::abs(after) > 1e-3 * unit; // flat ones have no side
+                                     && std::abs(after) > 1e-3 * unit; // flat: no volume
       TriangleSurface mirrored = rest;
       for (auto &x : mirrored.vertices)
         x[0] = -x[0];

@@ -9,12 +9,12 @@ namespace Exemplar
 {
   namespace
   {
-    /// Which triangles to turn so that neighbours agree, in each shell the fewer ones.
+    /// The triangles to turn so that neighbours agree: in each shell the minority.
     std::vector<bool>
     minority(const TriangleSurface &surface, const std::vector<TriangleSide> &sides)
     {
       const std::size_t                                       n = surface.triangles.size();
-      std::vector<std::vector<std::pair<unsigned int, bool>>> neighbours(n); // whether they agree
+      std::vector<std::vector<std::pair<unsigned int, bool>>> neighbours(n); // true: agrees
       for_each_edge(sides,
                     [&](const TriangleSide *const first, const TriangleSide *const last)
                     {

@@ -86,7 +86,8 @@ namespace Exemplar
         return ratio > 0. && holds_another_vertex(ear) ? ratio - 2. : ratio;
       }
 
-      /// Of a quadrilateral, the two triangles of a cut are judged together.
+      /// The corner of the ear with the best quality; for a quadrilateral, the worse of the two
+      /// triangles of each cut counts.
       std::size_t
       best_ear() const
       {

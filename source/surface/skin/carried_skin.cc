@@ -33,7 +33,8 @@ namespace Exemplar
       double       weight;
     };
 
-    /// A part of the volume of its cells for each node: where nodes are dense, each counts less.
+    /// A part of the volume of its cells for each node, so that each node counts less where nodes
+    /// are dense.
     std::vector<double>
     volumes_of_nodes(const Mesh &mesh)
     {
@@ -63,7 +64,7 @@ namespace Exemplar
         tree = dealii::pack_rtree(entries);
       }
 
-      /// The nodes that a point [m] goes with, ascending, with weights that sum to 1.
+      /// The nodes that carry a point [m], ascending, with weights that sum to 1.
       std::vector<NodeWeight>
       around(const dealii::Point<3> &point) const
       {

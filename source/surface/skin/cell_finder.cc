@@ -14,7 +14,7 @@ namespace Exemplar
   {
     using Entry = std::pair<dealii::BoundingBox<3>, unsigned int>; // a cell's box and number
 
-    constexpr double rounding = 1e-12; ///< of barycentric coordinates
+    constexpr double rounding = 1e-12; ///< tolerance of barycentric coordinates
 
     /// Barycentric coordinates by ratios of volumes.
     std::array<double, 4>

@@ -10,7 +10,7 @@ namespace Exemplar
   {
     constexpr SpaceVector nowhere{ { 0., 0., 0. } };
 
-    /// Of length 1; 0 if the triangle has no area.
+    /// The unit normal of a triangle; 0 if it has no area.
     SpaceVector
     triangle_normal(const TriangleSurface &surface, const unsigned int triangle)
     {
@@ -28,7 +28,7 @@ namespace Exemplar
     grid_direction(const SpaceVector &normal)
     {
       GridDirection direction;
-      for (int c = 0; c < 3; ++c) // sin(22.5 degrees)
+      for (int c = 0; c < 3; ++c) // threshold: sin(22.5 degrees)
         direction[c] = normal[c] > .383 ? 1 : normal[c] < -.383 ? -1 : 0;
       return direction;
     }
@@ -37,7 +37,7 @@ namespace Exemplar
     struct PartOfSurface
     {
       TriangleSurface           surface;
-      std::vector<unsigned int> number; ///< in the whole, of each triangle
+      std::vector<unsigned int> number; ///< numbers of the triangles in the whole
     };
 
     /// The triangles that face about this way.

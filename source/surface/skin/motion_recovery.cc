@@ -34,7 +34,7 @@ namespace Exemplar
       return neighbours;
     }
 
-    /// The node and the rings of nodes around it, as many as a fit needs.
+    /// The node and as many rings of nodes around it as a fit needs.
     std::vector<unsigned int>
     neighbourhood_of(const unsigned int node, const Neighbours &neighbours)
     {
@@ -119,7 +119,7 @@ namespace Exemplar
   {
     Fit fit;
     fit.to_round = rounding_map(node, neighbourhood, mesh);
-    dealii::FullMatrix<double> matrix(n_monomials, n_monomials); // of the normal equations
+    dealii::FullMatrix<double> matrix(n_monomials, n_monomials); // matrix of the normal equations
     for (const unsigned int other : neighbourhood)
       if (other != node)
       {
@@ -153,7 +153,7 @@ namespace Exemplar
   void
   MotionRecovery::make_exact_for_linear(Fit &fit, const unsigned int node, const Mesh &mesh)
   {
-    std::array<dealii::Tensor<1, 3>, n_monomials> seen; // derivatives that the fit gives y itself
+    std::array<dealii::Tensor<1, 3>, n_monomials> seen; // derivatives of y itself by the fit
     for (std::size_t k = 0; k < fit.neighbours.size(); ++k)
     {
       const auto y = fit.to_round * (mesh.get_nodes()[fit.neighbours[k]] - mesh.get_nodes()[node]);

@@ -27,7 +27,7 @@ namespace Exemplar
       return edges;
     }
 
-    /// For each vertex the least of those that edges join it to.
+    /// Connected components of edges: for each vertex the smallest one of its component.
     std::vector<unsigned int>
     joined(const std::size_t n_vertices, const Edges &edges)
     {
@@ -56,7 +56,7 @@ namespace Exemplar
       std::vector<std::size_t> size(sheet.size(), 0);
       for (const unsigned int s : sheet)
         ++size[s];
-      std::vector<unsigned int> largest = part; // of each part, by its first vertex
+      std::vector<unsigned int> largest = part; // largest sheet of each part, at its first vertex
       for (unsigned int v = 0; v < sheet.size(); ++v)
         if (size[sheet[v]] > size[largest[part[v]]])
           largest[part[v]] = sheet[v];
@@ -83,7 +83,7 @@ namespace Exemplar
     std::vector<bool> is_right = of_largest_sheets(joined(n, edges), joined(n, whole));
     while (true)
     {
-      std::map<unsigned int, std::vector<unsigned int>> next; // with their right neighbours
+      std::map<unsigned int, std::vector<unsigned int>> next; // to move, with right neighbours
       for (const auto &[a, b] : edges)
         if (is_right[a] != is_right[b])
           next[is_right[a] ? b : a].push_back(is_right[a] ? a : b);

@@ -17,8 +17,8 @@ namespace Exemplar
   {
     using Normals = std::vector<SpaceVector>;
 
-    /// Of the vertices from the boundary, and on average of the boundary from the surface, over the
-    /// size of the body.
+    /// Greatest distances that are accepted, over the size of the body: a vertex outside the
+    /// boundary, its mean, and the mean from the boundary to the surface.
     constexpr double max_outside = 0.1, mean_outside = 0.02, mean_between = 0.1;
 
     /// The surface of the mesh at rest; a triangle's number is that of the mesh's face.
@@ -101,28 +101,30 @@ namespace Exemplar
       bool
       has_gap(const dealii::Point<3> &a, const dealii::Point<3> &b) const;
 
-      /// Whether at most two edges lead from one of these nodes to one of those: where sheets overlap
-      /// at rest, a vertex lies in cells of the other one, too.
+      /// Whether at most two edges lead from one of `some` nodes to one of `others`. Where sheets
+      /// overlap at rest, a vertex lies in cells of the other sheet, too, to which no short path
+      /// leads.
       template <std::size_t n>
       bool
       are_near(const std::array<unsigned int, n> &some,
                const std::array<unsigned int, 4> &others) const;
 
-      /// Whether two vertices are nearer than a cell is large, but no edge leads from anchor to anchor.
+      /// Whether two vertices are nearer than a cell is large, but no edge leads from anchor to
+      /// anchor.
       bool
       are_parted(const SurfaceMesh                &surface,
                  const std::vector<SurfaceAnchor> &anchors,
                  unsigned int                      a,
                  unsigned int                      b) const;
 
-      /// On the boundary of the body near to some anchors, as near as can be to a place.
+      /// The point nearest to a place on the part of the boundary near to the anchors of `which`.
       SurfaceAnchor
       anchor_beside(const std::vector<SurfaceAnchor> &anchors,
                     const std::vector<unsigned int>  &which,
                     const SurfaceMesh::Vertex        &place) const;
 
       const Mesh                            &mesh;
-      std::vector<std::vector<unsigned int>> neighbours; ///< of each node, itself included
+      std::vector<std::vector<unsigned int>> neighbours; ///< adjacent nodes, and itself
       const CellFinder                       cells;
       const TriangleSurface                  boundary;
     };
@@ -193,7 +195,7 @@ namespace Exemplar
           numbers.push_back(t);
         }
       if (numbers.empty())
-        return anchors[which.front()]; // deep inside
+        return anchors[which.front()]; // all anchors are deep inside
       SurfacePoint point = closest_points(part, { place }).front();
       point.triangle     = numbers[point.triangle];
       return on_boundary(point);
@@ -247,7 +249,7 @@ namespace Exemplar
       return anchors;
     }
 
-    /// Of the nodes on the mesh's boundary from a surface, on average.
+    /// Mean distance of the nodes on the mesh's boundary from a surface [unit of both].
     double
     mean_distance_of_boundary(const Mesh &mesh, const TriangleSurface &surface)
     {
@@ -272,7 +274,8 @@ namespace Exemplar
       return sum / static_cast<double>(places.size());
     }
 
-    /// " Its size is ... times that of the body.", unless that is nearly 1.
+    /// A sentence on the ratio of the sizes of surface and body; empty for ratios between 0.5 and
+    /// 2.
     std::string
     size_text(const double ratio)
     {

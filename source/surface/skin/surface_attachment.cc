@@ -21,7 +21,8 @@ namespace Exemplar
     using Vertices = SurfaceAttachment::Vertices;
     using Offset   = dealii::Tensor<1, 3>;
 
-    /// Of the boundary nodes from the surface at rest, over the size of the body.
+    /// Greatest and mean distance of boundary nodes from the surface at rest that are accepted,
+    /// over the size of the body.
     constexpr double max_distance = 0.1, mean_distance = 0.02;
 
     dealii::Point<3>
@@ -63,11 +64,11 @@ namespace Exemplar
       const Offset normal = area_vector(from), turned = area_vector(to);
       const double size = std::sqrt(normal.norm() * turned.norm());
       if (size > 0.)
-        add_product(turned, normal / size, B); // as heavy as the edges
+        add_product(turned, normal / size, B); // normal, weighted as an edge
       return closest_rotation(B);
     }
 
-    /// Where a nearest point is of a part that faces the other way, take that of the part which faces
+    /// Replaces nearest points on a part that faces the other way by points on the part which faces
     /// as the body does there.
     void
     prefer_facing(const TriangleSurface          &surface,

@@ -43,7 +43,7 @@ namespace Exemplar
       return sum;
     }
 
-    /// A share of a corner that counts as none: the point lies on the opposite edge.
+    /// Barycentric coordinates below this count as 0: the point lies on the opposite edge.
     constexpr double no_share = 1e-6;
 
     /// Whether points lie on triangles that are marked, or on their borders.
@@ -64,7 +64,7 @@ namespace Exemplar
       {
         if (marked[point.triangle])
           return true;
-        std::vector<unsigned int> corners; // of the edge or the vertex that the point lies on
+        std::vector<unsigned int> corners; // corners of the edge or vertex that the point lies on
         for (unsigned int a = 0; a < 3; ++a)
           if (point.share[a] > no_share)
             corners.push_back(surface.triangles[point.triangle][a]);
@@ -244,7 +244,7 @@ namespace Exemplar
                       + name + " among the inputs. Hand it in, or read it from its file.");
     std::vector<double> values = found->second;
     for (double &value : values)
-      value = std::isnan(value) ? 0. : value; // not in the table
+      value = std::isnan(value) ? 0. : value; // the table has no value
     const double sign = side == "above" ? 1. : -1.;
     Nodes        nodes;
     double       nearest = -std::numeric_limits<double>::infinity();

@@ -8,7 +8,7 @@
 
 namespace Exemplar
 {
-  /// Whether a name comes before another where numbers count as numbers: walk_9 before walk_10.
+  /// Natural order of names, in which numbers count as numbers: walk_9 comes before walk_10.
   bool
   comes_before(const std::string &a, const std::string &b);
 

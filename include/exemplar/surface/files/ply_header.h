@@ -28,7 +28,7 @@ namespace Exemplar
   {
     std::string            name;
     PlyType                type;
-    std::optional<PlyType> count; ///< of a list: the type of its length
+    std::optional<PlyType> count; ///< type of a list's length; none for a single number
   };
 
   /// A kind of elements, vertices for instance, and how many there are.
@@ -51,7 +51,7 @@ namespace Exemplar
     }
   };
 
-  /// What a .ply file says of itself.
+  /// The header of a .ply file.
   struct PlyHeader
   {
     std::vector<PlyElement> elements; ///< in the file's order

@@ -10,8 +10,8 @@
 
 namespace Exemplar
 {
-  /// Where the vertices of a surface are in time, such as the output of a rig. Samples are decoded
-  /// when they are asked for.
+  /// Vertex positions of a surface over time, such as the output of a rig. Samples are decoded when
+  /// they are asked for.
   class PointCache
   {
   public:
@@ -19,19 +19,19 @@ namespace Exemplar
 
     virtual ~PointCache() = default;
 
-    /// Of the samples [s]; at least one, ascending.
+    /// Times of the samples [s]: at least one, ascending.
     const std::vector<double> &
     get_times() const
     {
       return times;
     }
 
-    /// In the unit of the surface. Throws UserError for what is not finite and, of a sequence of
-    /// files, for a file that is no pose of the surface.
+    /// Vertex positions of sample k, in the unit of the surface. Throws UserError for coordinates
+    /// that are not finite and, in a sequence of files, for a file that is no pose of the surface.
     virtual Vertices
     sample(std::size_t k) const = 0;
 
-    /// Of a sample, for messages: its file, if each has one.
+    /// Name of a sample for messages: its file, if each sample has one.
     virtual std::string
     name_of(std::size_t k) const;
 

@@ -25,7 +25,7 @@ namespace Exemplar
   struct PlyAttribute
   {
     std::vector<SurfaceMesh::Vertex> vertices;
-    std::vector<double>              values; ///< of one byte wide ones, which are colours, over 255
+    std::vector<double>              values; ///< one a vertex; colours of one byte over 255
   };
 
   /// Throws UserError if the vertices have no scalar property of this name, naming those they have.

@@ -37,7 +37,7 @@ namespace Exemplar
     std::string
     rest_of_line(std::size_t i) const;
 
-    /// The number of that line, from 1.
+    /// The number of the line that next_line() went to, from 1.
     std::size_t
     line() const
     {
@@ -52,7 +52,8 @@ namespace Exemplar
     long long
     integer(std::string_view word) const;
 
-    /// From here on places are told as bytes, and raw() reads numbers of the other byte order.
+    /// Switch to binary: from here on messages name bytes, and raw() swaps the byte order if
+    /// `swapped_bytes`.
     void
     begin_binary(bool swapped_bytes);
 
@@ -81,11 +82,11 @@ namespace Exemplar
       position = byte;
     }
 
-    /// From here on `n_total` things called `what` are read, for messages of a truncated file.
+    /// Begin to read `n_total` things called `what`, for messages of a truncated file.
     void
     begin_count(std::size_t n_total, const std::string &what);
 
-    /// One more of them is read.
+    /// One more of the things of begin_count() is read.
     void
     count()
     {
@@ -96,7 +97,7 @@ namespace Exemplar
     [[noreturn]] void
     fail(const std::string &message) const;
 
-    /// The same for another line of the file.
+    /// Throw UserError as fail() does, but for another line of the file.
     [[noreturn]] void
     fail_at_line(std::size_t line, const std::string &message) const;
 
@@ -111,8 +112,8 @@ namespace Exemplar
     std::filesystem::path         file;
     std::string                   bytes;
     std::size_t                   position    = 0;
-    std::size_t                   line_number = 0; ///< of the words
-    std::size_t                   n_lines     = 0; ///< that were gone through
+    std::size_t                   line_number = 0; ///< number of the line of `line_words`
+    std::size_t                   n_lines     = 0; ///< lines that were read
     std::vector<std::string_view> line_words;
     bool                          binary  = false;
     bool                          swapped = false;

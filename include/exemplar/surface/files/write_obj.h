@@ -12,9 +12,9 @@ namespace Exemplar
   void
   write_obj(const SurfaceMesh &surface, const std::filesystem::path &file);
 
-  /// The two parts of an .obj, to be written together: a line a vertex, and what follows: points of
-  /// texture, and faces with the statements of the file that they were read from; without any, with
-  /// their groups as g. (Normals are left out: they are those of another pose.)
+  /// The two parts of an .obj, to be written one after the other: a line for each vertex; then
+  /// texture points, and faces with the statements of the file that they were read from, or, if it
+  /// had none, with their groups as g. Normals are left out, as they are those of another pose.
   std::string
   obj_vertices(const std::vector<SurfaceMesh::Vertex> &vertices);
   std::string

@@ -10,16 +10,16 @@ namespace Exemplar
   struct BodySurface
   {
     TriangleSurface          surface;  ///< without unused vertices
-    TriangleSurface          original; ///< as the file has it
+    TriangleSurface          original; ///< surface of the file, triangulated
     std::vector<std::string> group_names;
-    std::vector<std::string> notes; ///< what was seen and mended
+    std::vector<std::string> notes; ///< what was found and repaired, a line each
   };
 
   struct SurfaceMeshingOptions;
 
-  /// Check a surface that was read from `options.surface`. With `repair`, what is wrong is repaired, and if that does not do, the
-  /// surface is wrapped; the notes say what was done and how far the surface moved. Throws UserError
-  /// with all that is wrong and where.
+  /// Check a surface that was read from `options.surface`. With `repair`, faults are repaired, and
+  /// if some remain, the surface is wrapped; the notes say what was done and how far the surface
+  /// moved. Throws UserError with all faults and their places.
   BodySurface
   make_body_surface(const SurfaceMesh &read, const SurfaceMeshingOptions &options);
 } // namespace Exemplar

@@ -14,7 +14,7 @@ namespace Exemplar
   std::array<SpaceVector, 4>
   corners_of(const TetrahedralMesh &mesh, std::size_t cell);
 
-  /// How good the cells of a mesh are [degrees].
+  /// Dihedral angles of the cells of a mesh [degrees].
   struct CellAngles
   {
     double      smallest = 180., percentile_1 = 0., median = 0.; ///< of the cells' smallest angles
@@ -23,7 +23,7 @@ namespace Exemplar
     std::size_t n_slivers          = 0; ///< all cells with such an angle
   };
 
-  /// What counts as a sliver [degrees].
+  /// Cells with a smaller dihedral angle are slivers [degrees].
   constexpr double sliver_angle = 3.;
 
   CellAngles

@@ -12,9 +12,9 @@ namespace Exemplar
   struct MaterialSeed
   {
     SurfaceMesh::Vertex place;
-    unsigned int        id; ///< from 1
+    unsigned int        id; ///< material id, from 1
     std::string         name;
-    std::size_t         line; ///< of the file
+    std::size_t         line; ///< line of the file
   };
 
   /// The rows of a table in CSV with the header x,y,z,id or x,y,z,id,name; blank lines and lines

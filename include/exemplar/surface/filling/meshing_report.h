@@ -9,23 +9,23 @@
 
 namespace Exemplar
 {
-  /// What a mesh is judged by.
+  /// Quality of a mesh: angles of its cells and distances to the surface.
   struct Judgement
   {
     CellAngles      angles;
     SurfaceDistance surface_to_mesh;
     SurfaceDistance mesh_to_surface;
-    double          lost = 0.; ///< the farthest that a point of the mended surface is off
+    double          lost = 0.; ///< largest distance of the repaired surface to the mesh
   };
 
-  /// A mesh with what it is judged by.
+  /// A mesh and its quality.
   struct JudgedMesh
   {
     TetrahedralMesh mesh;
     Judgement       judgement;
   };
 
-  /// What the user is told of a mesh.
+  /// The report on a mesh for the user.
   MeshingReport
   make_report(const FillingPlace          &place,
               const BodySurface           &body,

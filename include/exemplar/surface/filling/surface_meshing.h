@@ -10,61 +10,62 @@
 
 namespace Exemplar
 {
-  /// What the making of a mesh has come to, in this order.
+  /// Stages of mesh generation, in this order.
   enum class MeshingStage : unsigned short
   {
     checking, ///< the surface is read, checked, and mended
-    thinning, ///< dense triangles become as fine as cells can follow
-    filling,  ///< edges become as long as the cells want, and it is filled; several times
-    measuring ///< cells are brought back from where they were made, and distances taken
+    thinning, ///< triangles much finer than the cells are coarsened
+    filling,  ///< the surface is remeshed to the wanted edge length and filled; several times
+    measuring ///< cells are carried back to the rest place, distances are measured
   };
 
-  /// What to make of a surface.
+  /// Options of mesh_surface().
   struct SurfaceMeshingOptions
   {
     std::filesystem::path surface;
-    unsigned int          n_cells = 0; ///< wanted
+    unsigned int          n_cells = 0; ///< number of cells that is wanted
     bool                  repair  = false;
     /// Poses of the surface, in which sheets that cross at rest may be apart.
     std::vector<std::filesystem::path> poses = {};
     std::filesystem::path materials          = {}; ///< a table, see read_material_seeds(); or empty
-    /// What the user calls cells and repair, for messages.
+    /// Names of the options for the number of cells and for repair, for messages.
     std::string cells_option = "--cells", repair_option = "--repair";
-    /// Is called at the beginning of each stage, and again for each attempt at it.
+    /// Called at the beginning of each stage, and again for each attempt at it.
     std::function<void(MeshingStage)> tell = [](MeshingStage) {};
   };
 
-  /// How a mesh became.
+  /// Report on the generation of a mesh.
   struct MeshingReport
   {
     std::vector<std::pair<std::string, std::string>> table; ///< (what, how much)
     std::vector<std::string>                         notes; ///< lines for the user
   };
 
-  /// A mesh inside a surface, and how it became.
+  /// A mesh inside a surface, and the report on its generation.
   struct MeshedSurface
   {
     MshFile       mesh; ///< groups of faces are its physical surfaces, shells its physical volumes
     MeshingReport report;
   };
 
-  /// Another place of a surface in which it is filled, and the way of its cells back to rest.
+  /// Vertex positions in which a surface is filled, and the map of its cells back to the rest
+  /// place.
   struct FillingPlace
   {
     std::vector<SurfaceMesh::Vertex>       vertices;
-    std::function<void(TetrahedralMesh &)> carry_back; ///< empty: the place is that at rest
-    std::vector<std::string>               notes;      ///< what the user should know of both
+    std::function<void(TetrahedralMesh &)> carry_back; ///< empty: `vertices` are at rest
+    std::vector<std::string>               notes;      ///< lines for the user
   };
 
-  /// Read a surface, check it (and mend it, if that is wished), make its edges as long as the number
-  /// of cells wants, fill it with tetrahedra and remove flat ones. Places are those of the file, in
-  /// its unit and axes. Throws UserError for a surface that is no boundary of a body, with what is
-  /// wrong and where; SolverFailure if it cannot be filled.
+  /// Read a surface, check it (and mend it, if that is wished), make its edges as long as the
+  /// number of cells wants, fill it with tetrahedra and remove flat ones. Places are those of the
+  /// file, in its unit and axes. Throws UserError for a surface that is no boundary of a body, with
+  /// what is wrong and where; SolverFailure if it cannot be filled.
   MeshedSurface
   mesh_surface(const SurfaceMeshingOptions &options);
 
-  /// The same of a surface that has been read, filled at `place`. Distances and angles are those of
-  /// the mesh at rest.
+  /// mesh_surface() for a surface that has been read, filled with its vertices at `place`.
+  /// Distances and angles are those of the mesh at rest.
   MeshedSurface
   mesh_surface_at(const SurfaceMesh           &rest,
                   const FillingPlace          &place,

@@ -12,12 +12,13 @@ namespace Exemplar
   std::vector<std::string>
   names_of_regions(const TetrahedralMesh &mesh, const std::vector<std::string> &group_names);
 
-  /// Regions as materials: names that are all whole numbers are the ids, others are numbered from 1.
+  /// Regions as materials: names that are all whole numbers are the ids, others are numbered from
+  /// 1.
   Materials
   materials_by_regions(const TetrahedralMesh &mesh, const std::vector<std::string> &region_names);
 
-  /// As a file: the groups of the outer triangles become physical surfaces, by the same rule, the
-  /// materials physical volumes.
+  /// The mesh as a .msh file: groups of the outer triangles become physical surfaces, named by the
+  /// rule of names_of_regions(), and materials become physical volumes.
   MshFile
   make_surface_msh(const TetrahedralMesh          &mesh,
                    const std::vector<std::string> &group_names,

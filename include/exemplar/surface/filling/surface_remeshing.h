@@ -17,24 +17,24 @@ namespace Exemplar
          bool                     keep_edges,
          const std::vector<bool> &held = {});
 
-  /// What remeshing does about sheets that almost touch, as the lips of a mouth do, and that intersect
-  /// when each is made anew by itself.
+  /// Treatment of sheets that almost touch, as the lips of a mouth do, and that intersect when each
+  /// is remeshed by itself.
   enum class NearSheets
   {
-    held,   ///< their triangles stay as they are, so that the number of all hardly changes
-    refined ///< all edges become shorter, which makes better triangles there
+    held,   ///< their triangles stay as they are, so that the number of triangles hardly changes
+    refined ///< all edges become shorter, so that triangles there are better
   };
 
-  /// A surface that has been made anew.
+  /// A remeshed surface.
   struct Remeshed
   {
     TriangleSurface surface;
-    bool            has_near_sheets; ///< that intersected at first
+    bool            has_near_sheets; ///< whether the first remeshing intersected itself
   };
 
-  /// remesh() with the shells in the order of those given, and without intersections: where there are
-  /// some, `near_sheets` is tried first and then the other. Throws
-  /// SolverFailure if nothing helps; `cells_option` is how the user asks for more cells.
+  /// remesh() that keeps the order of the shells and leaves no intersections: where there are some,
+  /// `near_sheets` is tried first and then the other treatment. Throws SolverFailure if neither
+  /// helps; `cells_option` is the option by which the user asks for more cells.
   Remeshed
   remesh_without_intersections(const TriangleSurface &surface,
                                double                 edge_length,

@@ -10,8 +10,8 @@ namespace Exemplar
   struct TetrahedralMesh
   {
     std::vector<SurfaceMesh::Vertex>         nodes;
-    std::vector<std::array<unsigned int, 4>> cells;    ///< of positive volume
-    std::vector<unsigned int>                regions;  ///< of each cell, from 0
+    std::vector<std::array<unsigned int, 4>> cells;    ///< nodes; positive volume
+    std::vector<unsigned int>                regions;  ///< one a cell, from 0
     TriangleSurface                          boundary; ///< triangles of nodes; vertices unused
   };
 

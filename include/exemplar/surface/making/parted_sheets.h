@@ -6,10 +6,11 @@
 
 namespace Exemplar
 {
-  /// mesh_surface() of a surface whose sheets may cross at rest, as lips do: it is filled where they
-  /// are apart in `options.poses`, and the cells follow it back to rest, where they overlap then. What
-  /// no pose parts is treated as without poses, and a note says where it is. Without crossing sheets
-  /// the same as mesh_surface(). Throws as that, and as read_pose_surface().
+  /// mesh_surface() for a surface whose sheets may cross at rest, as lips do: it is filled where
+  /// they are apart in `options.poses`, and the cells are carried back to rest, where they may then
+  /// overlap. Crossings that no pose parts are treated as without poses, and a note says where they
+  /// are. Without crossing sheets this is mesh_surface(). Throws as mesh_surface() and
+  /// read_pose_surface() do.
   MeshedSurface
   mesh_parted(const SurfaceMeshingOptions &options);
 } // namespace Exemplar

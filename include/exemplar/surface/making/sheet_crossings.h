@@ -8,11 +8,12 @@
 
 namespace Exemplar
 {
-  /// Where the sheets of a surface cross, in any place of its vertices.
+  /// Finds crossings between sheets of a surface, for any positions of its vertices.
   class SheetCrossings
   {
   public:
-    /// Triangles that are faulty by themselves (edges of more than two, turned ones) are not looked at.
+    /// Leaves out triangles that are faulty by themselves (edges of more than two triangles, turned
+    /// triangles).
     explicit SheetCrossings(const TriangleSurface &surface);
 
     /// Pairs of triangles that cross, by their numbers in the surface.
@@ -20,11 +21,11 @@ namespace Exemplar
     pairs(const std::vector<SurfaceMesh::Vertex> &vertices) const;
 
   private:
-    TriangleSurface           sound;   ///< what is looked at
-    std::vector<unsigned int> numbers; ///< of its triangles, in the surface
+    TriangleSurface           sound;   ///< the surface without faulty triangles
+    std::vector<unsigned int> numbers; ///< of each triangle of `sound`, its number in the surface
   };
 
-  /// Whether sheets cross where the surface has its vertices.
+  /// Whether sheets cross at the surface's own vertices.
   bool
   has_crossing_sheets(const SurfaceMesh &surface);
 } // namespace Exemplar

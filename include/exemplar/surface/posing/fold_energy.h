@@ -13,13 +13,13 @@
 
 namespace Exemplar
 {
-  /// f = |F|^2 / chi^(2/3) + (det(F)^2 + 1) / chi - 5 with chi = (det F + sqrt(eps^2 + det(F)^2)) / 2,
-  /// Eqs. (3) to (5) there. Not negative for eps = 0, where it is zero for rotations alone and
+  /// f = |F|^2 / chi^(2/3) + (det(F)^2 + 1) / chi - 5 with chi = (det F + sqrt(eps^2 + det(F)^2)) /
+  /// 2, Eqs. (3) to (5) there. Not negative for eps = 0, where it is zero for rotations alone and
   /// infinite for det F <= 0.
   double
   fold_energy(const Matrix3<double> &F, double eps);
 
-  /// Its derivative by F, for a finite energy.
+  /// The derivative of fold_energy() by F (first Piola-Kirchhoff stress), for a finite energy.
   Matrix3<double>
   fold_stress(const Matrix3<double> &F, double eps);
 

@@ -7,14 +7,14 @@
 namespace Exemplar
 {
   /// The surroundings of some cells of a body as a body of their own, which is small where these
-  /// cells are few. What lies around is held where it is.
+  /// cells are few. Nodes outside of it are held where they are.
   class FoldNeighbourhood
   {
   public:
     using Points = FoldPotential::Points;
 
-    /// Around the nodes that are marked, as many rings of cells as `n_rings`, at least one. `rest`
-    /// and `x` are the nodes of the whole body at rest and now.
+    /// The neighbourhood of the marked nodes: `n_rings` >= 1 rings of cells around them. `rest` and
+    /// `x` are the nodes of the whole body at rest and now.
     FoldNeighbourhood(const FoldPotential &whole,
                       const Points        &rest,
                       const Points        &x,
@@ -27,7 +27,7 @@ namespace Exemplar
       return potential;
     }
 
-    /// Of the nodes of the neighbourhood.
+    /// Places of the neighbourhood's nodes at the beginning [m].
     const Points &
     get_start() const
     {
@@ -39,7 +39,8 @@ namespace Exemplar
     copy_back(const Points &of_neighbourhood, Points &x) const;
 
   private:
-    /// Number in the neighbourhood of each node of the body, or -1; nodes and cells of the neighbourhood.
+    /// Number in the neighbourhood of each node of the body, or -1; nodes and cells of the
+    /// neighbourhood.
     struct Numbering
     {
       std::vector<int>          number;
@@ -53,13 +54,14 @@ namespace Exemplar
     static Points
     selected(const Points &points, const std::vector<unsigned int> &which);
 
-    std::vector<char> free; ///< of the whole body's nodes
+    std::vector<char> free; ///< which nodes of the whole body may move
     Numbering         numbering;
     Points            start;
     FoldPotential     potential;
   };
 
-  /// Marks the nodes of cells with a marked node, `n_rings` times.
+  /// `marked` grown by n_rings rings of cells: nodes of cells with a marked node are marked,
+  /// n_rings times.
   std::vector<char>
   grown(const FoldPotential::Cells &cells, std::vector<char> marked, unsigned int n_rings);
 } // namespace Exemplar

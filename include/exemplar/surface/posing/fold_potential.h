@@ -20,25 +20,26 @@ namespace Exemplar
     std::vector<dealii::Point<3>> target;    ///< [m]
   };
 
-  /// What a pose on tetrahedra minimises: the mean of fold_energy() over the rest volume plus the
-  /// springs' sum_i stiffness_i |x_i - target_i|^2 / 2 and SkinSprings::energy(). Without unit.
+  /// The potential that a pose on tetrahedra minimises: the mean of fold_energy() over the rest
+  /// volume plus the springs' sum_i stiffness_i |x_i - target_i|^2 / 2 and SkinSprings::energy().
+  /// Without unit.
   class FoldPotential
   {
   public:
     using Points = std::vector<dealii::Point<3>>;
     using Cells  = std::vector<std::array<unsigned int, 4>>;
 
-    /// Nodes at rest [m], cells of positive volume. Without springs. Results do not depend on the number
-    /// of threads.
+    /// Takes nodes at rest [m] and cells of positive volume; there are no springs yet. Results do
+    /// not depend on the number of threads.
     FoldPotential(const Points &nodes, const Cells &cells, unsigned int n_threads = 1);
 
-    /// Both parts have an entry for each node.
+    /// Springs of the nodes; stiffness and target have an entry for each node.
     Attachment attachment;
 
-    /// Those of the vertices of a surface; none in the beginning.
+    /// Springs of the vertices of a surface; none in the beginning.
     SkinSprings skin;
 
-    /// Infinite if `eps` is zero and a cell is inverted.
+    /// The potential; infinite if `eps` is zero and a cell is inverted.
     double
     value(const Points &x, double eps) const;
 
@@ -46,8 +47,8 @@ namespace Exemplar
     std::vector<double>
     gradient(const Points &x, double eps) const;
 
-    /// The second derivative without its negative parts in each cell and without that of `skin`
-    /// [1/m^2], on block_pattern().
+    /// The Hessian with each cell's eigenvalues by F bounded from below, so that it is positive
+    /// definite, and without that of `skin` [1/m^2], on block_pattern().
     void
     assemble(const Points &x, double eps, std::vector<double> &values) const;
 
@@ -59,24 +60,25 @@ namespace Exemplar
     Matrix3<double>
     gradient_of_cell(const Points &x, std::size_t cell) const;
 
-    /// The system of the nearest rotations: the mean of |F - R|^2 with rotations R that are held,
-    /// plus the springs, for each of the three components; on node_pattern().
+    /// The matrix of the local-global step for the nearest rotations: the mean of |F - R|^2 with
+    /// rotations R that are held, plus the springs, for each of the three components; on
+    /// node_pattern().
     void
     assemble_rotations(std::vector<double> &values) const;
 
-    /// Its right side for the rotations of the cells at `x` (with none: for no rotation), the
-    /// three components one after the other.
+    /// The right-hand side of assemble_rotations() for the rotations of the cells at `x` (null: no
+    /// rotation), the three components one after the other.
     std::vector<double>
     rotated_rest(const Points *x) const;
 
-    /// A row a node.
+    /// Pattern with a row for each node.
     const SymmetricPattern &
     node_pattern() const
     {
       return pattern;
     }
 
-    /// A row a degree of freedom.
+    /// Pattern with a row for each degree of freedom.
     SymmetricPattern
     block_pattern() const;
 
@@ -100,8 +102,8 @@ namespace Exemplar
     }
 
   private:
-    /// Blocks of the stiffness of a cell for its pairs of nodes (a, b), a <= b; the later node in the body
-    /// has the rows.
+    /// Blocks of the stiffness of a cell for its pairs of nodes (a, b), a <= b; the later node in
+    /// the body has the rows.
     using CellBlocks = std::array<Matrix3<double>, 10>;
 
     void
@@ -121,10 +123,10 @@ namespace Exemplar
 
     const unsigned int               n_threads;
     Cells                            cells;
-    std::vector<Tetrahedron<double>> rest; ///< volumes as shares of the whole
+    std::vector<Tetrahedron<double>> rest; ///< cells at rest; volumes as shares of the whole
     double                           volume = 0.;
     SymmetricPattern                 pattern;
-    /// Position in `pattern` of the pairs (a, b), a <= b, of each cell's nodes.
+    /// Positions in `pattern` of the node pairs (a, b), a <= b, of each cell.
     std::vector<std::array<int, 10>> positions;
   };
 } // namespace Exemplar

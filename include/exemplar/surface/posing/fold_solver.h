@@ -14,33 +14,34 @@ namespace Exemplar
   public:
     using Points = FoldPotential::Points;
 
-    /// det F of a cell that counts as not inverted is greater.
+    /// A cell counts as inverted unless its det F is greater than this.
     static constexpr double margin = 1e-3;
 
-    /// Where the nodes are, and how they came there.
+    /// Places of the nodes, and how they were found.
     struct Result
     {
       Points       x;               ///< [m]
-      double       min_det    = 1.; ///< of F over the cells
-      unsigned int iterations = 0;  ///< of Newton's method
-      unsigned int releases   = 0;  ///< how often springs were softened
+      double       min_det    = 1.; ///< least det F of the cells
+      unsigned int iterations = 0;  ///< steps of Newton's method
+      unsigned int releases   = 0;  ///< times that springs were softened
     };
 
     /// `potential` must outlive this; its springs may change between solutions.
     explicit FoldSolver(FoldPotential &potential);
 
-    /// From the nearest rotations of the cells, which may invert some, through less and less
-    /// regularised energies to one that is infinite for inverted cells. Springs around cells that
-    /// stay inverted are softened, in the potential, and the search goes on. If that does not help
-    /// either, from `rest`, the nodes at rest, and never through an inverted cell. There remain
-    /// inverted cells only if Result::min_det is not greater than the margin.
+    /// Minimises from the nearest rotations of the cells, which may invert some, through less and
+    /// less regularised energies to one that is infinite for inverted cells. Springs around cells
+    /// that stay inverted are softened, in the potential, and the search goes on. If that fails, it
+    /// minimises from `rest`, the nodes at rest, and never through an inverted cell. Inverted cells
+    /// remain only if Result::min_det is not greater than the margin.
     Result
     solve(const Points &rest);
 
-    /// Goes on from a solution towards the places of the skin's vertices: with springs of `stiffness`
-    /// [1/m^2], one a vertex, and then with stronger and stronger ones where cells can bear it, as long as
-    /// that brings the vertices clearly nearer. Cells that are nearly flat are not pulled at, and where a
-    /// step would make a pose worse the one before it is the last.
+    /// Goes on from a solution towards the places of the skin's vertices: with springs of
+    /// `stiffness` [1/m^2], one for each vertex, and then with stronger and stronger ones around
+    /// cells that are not too flat, as long as the vertices come clearly nearer. Vertices beside
+    /// nearly flat cells are not pulled at; a step that makes a pose worse is undone and is the
+    /// last.
     void
     draw_nearer(Result &result, const std::vector<double> &stiffness);
 

@@ -15,13 +15,13 @@ namespace Exemplar
     /// `potential` must outlive this.
     explicit FoldSystem(const FoldPotential &potential);
 
-    /// The second derivative, as FoldPotential::assemble() has it and with the springs of the skin, at
-    /// these places of the nodes. Throws SolverFailure if it has no factor.
+    /// Factorizes the Hessian of FoldPotential::assemble(), with the springs of the skin, at these
+    /// places of the nodes. Throws SolverFailure if it has no factor.
     void
     factorize(const FoldPotential::Points &x, double eps);
 
-    /// The inverse times a right side: by the factor alone, or, as that has bounds in place of the skin's
-    /// springs, by conjugate gradients with the factor.
+    /// The solution for a right-hand side: by the factor alone, or, with springs of the skin, of
+    /// which the factor has only a diagonal bound, by conjugate gradients preconditioned by it.
     std::vector<double>
     solve(const std::vector<double> &right_side) const;
 
@@ -32,7 +32,7 @@ namespace Exemplar
     const FoldPotential         &potential;
     std::unique_ptr<SpdOperator> system;
     SymmetricPattern             pattern;
-    std::vector<double>          without_skin; ///< values on the pattern
+    std::vector<double>          without_skin; ///< Hessian without the skin's springs
   };
 } // namespace Exemplar
 

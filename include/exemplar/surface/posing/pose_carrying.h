@@ -20,8 +20,8 @@ namespace Exemplar
   SurfaceMesh
   read_pose_surface(const std::filesystem::path &file, const RestSurface &rest);
 
-  /// Carries poses of a surface onto a mesh of its inside; both stay where they are. Throws UserError
-  /// if the mesh is not of the surface's inside.
+  /// Makes a PoseTransfer from poses of a surface to a mesh of its inside, which follows the
+  /// surface's vertices. Throws UserError if the mesh is not one of the surface's inside.
   PoseTransfer
   make_pose_transfer(const Mesh        &mesh,
                      const RestSurface &rest,

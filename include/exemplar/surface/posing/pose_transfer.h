@@ -17,16 +17,17 @@ namespace Exemplar
   public:
     using Points = FoldPotential::Points;
 
-    /// Nodes [m] and positive cells of the mesh, how its boundary hangs on the surface at rest, and
-    /// how strongly, over the stiffness of the body. Results do not depend on the number of threads.
+    /// Takes nodes [m] and positively oriented cells of the mesh, the attachment of its boundary to
+    /// the surface at rest, and its stiffness `attach`, over that of the body. Results do not
+    /// depend on the number of threads.
     PoseTransfer(const Points               &nodes,
                  const FoldPotential::Cells &cells,
                  SurfaceAttachment           of_boundary,
                  double                      attach,
                  unsigned int                n_threads = 1);
 
-    /// From now on all vertices that faces of the surface use, as runs carry them (SurfaceSkin), are drawn
-    /// to their places, and errors are theirs; before, both are of the boundary nodes.
+    /// Draws all vertices that faces of the surface use, as runs carry them (SurfaceSkin), to their
+    /// places, and measures errors at them. Without this call, both concern the boundary nodes.
     void
     follow_skin(const SurfaceMesh &rest, const Mesh &mesh);
 
@@ -55,15 +56,15 @@ namespace Exemplar
                     const SurfaceAttachment::Vertices &vertices,
                     PoseQuality                       &quality) const;
 
-    Points                         nodes;
-    SurfaceAttachment              attachment;
-    std::unique_ptr<FoldPotential> potential; ///< stays where it is, for the solver
-    FoldSolver                     solver;
-    std::vector<double>            stiffness;       ///< of the spring of each boundary node [1/m^2]
-    std::unique_ptr<SurfaceSkin>   skin;            ///< null: only boundary nodes are followed
-    std::vector<double>            skin_stiffness;  ///< of `measured` in the beginning [1/m^2]
-    std::vector<std::size_t>       measured;        ///< vertices of the surface
-    std::vector<std::array<unsigned int, 2>> edges; ///< of the surface's faces
+    Points                                   nodes;
+    SurfaceAttachment                        attachment;
+    std::unique_ptr<FoldPotential>           potential; ///< on the heap, as the solver refers to it
+    FoldSolver                               solver;
+    std::vector<double>                      stiffness; ///< springs of boundary nodes [1/m^2]
+    std::unique_ptr<SurfaceSkin>             skin;      ///< null: only boundary nodes are followed
+    std::vector<double>                      skin_stiffness; ///< initial, of `measured` [1/m^2]
+    std::vector<std::size_t>                 measured;       ///< vertices of the surface
+    std::vector<std::array<unsigned int, 2>> edges;          ///< edges of faces
   };
 
   PoseTransfer::Points

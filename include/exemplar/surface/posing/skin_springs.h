@@ -10,25 +10,25 @@
 
 namespace Exemplar
 {
-  /// Springs between the vertices of a surface, where the body carries them, and places: each pulls at
-  /// all nodes that its vertex goes with. Their energy is sum_v stiffness_v |r_v|^2 / 2 with
-  /// r_v = offset_v + sum_i share_vi x_i, the way of vertex v from its place.
+  /// Springs from the vertices of a surface, as the body carries them, to fixed places: each acts
+  /// on all nodes that its vertex depends on. Their energy is sum_v stiffness_v |r_v|^2 / 2 with
+  /// the residual r_v = offset_v + sum_i share_vi x_i of vertex v from its place.
   class SkinSprings
   {
   public:
     using Points = std::vector<dealii::Point<3>>;
 
-    /// None.
+    /// No springs.
     SkinSprings() = default;
 
-    /// One for each of `vertices`, without stiffness. `nodes` are those of the mesh at rest and `places`
-    /// those of all vertices of the skin [m].
+    /// A spring for each of `vertices`, of stiffness 0. `nodes` are those of the mesh at rest and
+    /// `places` those of all vertices of the skin [m].
     SkinSprings(const SurfaceSkin              &skin,
                 const std::vector<std::size_t> &vertices,
                 const Points                   &nodes,
                 const Points                   &places);
 
-    /// [1/m^2]
+    /// Stiffness of each spring [1/m^2].
     std::vector<double> stiffness;
 
     bool
@@ -49,20 +49,19 @@ namespace Exemplar
     double
     energy(const Points &x) const;
 
-    /// Add its derivative, by degree of freedom [1/m].
+    /// Add the derivative of the energy, by degree of freedom [1/m].
     void
     add_gradient(const Points &x, std::vector<double> &gradient) const;
 
-    /// Add the second derivative times `vector`.
+    /// Add the Hessian of the energy times `vector`.
     void
     add_product(const Vector &vector, Vector &product) const;
 
-    /// For each node a number, such that the matrix with them on its diagonal is not less than the second
-    /// derivative.
+    /// An upper bound of the Hessian by a diagonal matrix, one number for each node.
     std::vector<double>
     diagonal_bound(std::size_t n_nodes) const;
 
-    /// The nodes that a vertex goes with.
+    /// The nodes that a vertex depends on, with their shares.
     const std::vector<NodalSum::Share> &
     shares_of(const std::size_t v) const
     {

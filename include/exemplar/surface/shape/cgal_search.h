@@ -15,7 +15,7 @@
 
 namespace Exemplar
 {
-  // CGAL 6 has other names for the same.
+  // An AABB tree of triangles; CGAL 6 has renamed its traits and primitive.
 #if CGAL_VERSION_MAJOR >= 6
   template <class Kernel, class Iterator>
   using TriangleSearch = CGAL::AABB_tree<

@@ -7,7 +7,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
-// For files cgal_*.cc alone: CGAL's headers take long to compile.
+// Types of CGAL and conversions, for files cgal_*.cc alone: CGAL's headers take long to compile.
 
 namespace Exemplar
 {
@@ -30,7 +30,7 @@ namespace Exemplar
   using CgalPoints   = std::vector<CgalPoint>;
   using CgalPolygons = std::vector<std::vector<std::size_t>>;
 
-  /// Appends vertices and triangles.
+  /// Appends the vertices and triangles of a surface to a polygon soup.
   inline void
   to_soup(const TriangleSurface &surface, CgalPoints &points, CgalPolygons &polygons)
   {
@@ -40,7 +40,7 @@ namespace Exemplar
       polygons.push_back({ t[0], t[1], t[2] });
   }
 
-  /// A surface with manifold edges as CGAL has it, vertices and faces in their order.
+  /// A surface with manifold edges as a CGAL mesh, vertices and faces in their order.
   inline CgalMesh
   make_cgal_mesh(const TriangleSurface &surface)
   {
@@ -53,7 +53,8 @@ namespace Exemplar
     return mesh;
   }
 
-  /// Back, with the groups of `group_of`; vertices without a face are left out.
+  /// The surface of a CGAL mesh, with the groups of `group_of`; vertices without a face are left
+  /// out.
   template <typename GroupMap>
   TriangleSurface
   from_cgal_mesh(CgalMesh &mesh, const GroupMap &group_of)

@@ -10,7 +10,7 @@ namespace Exemplar
   struct SurfacePoint
   {
     unsigned int          triangle;
-    std::array<double, 3> share; ///< of each corner; they sum to 1 and none is negative
+    std::array<double, 3> share; ///< barycentric coordinates: none negative, sum 1
   };
 
   /// The point nearest to each of `points` on a surface of which one triangle at least has an area;

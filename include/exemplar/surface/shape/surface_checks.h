@@ -6,33 +6,35 @@
 
 namespace Exemplar
 {
-  /// A triangle and what it is called in messages: the number of its face in the file, from 1.
+  /// A triangle surface and the faces of the file that its triangles come from, which messages
+  /// number from 1.
   struct CheckedSurface
   {
     TriangleSurface           surface;
-    std::vector<unsigned int> faces; ///< of each triangle, from 0; empty: the triangles are faces
+    std::vector<unsigned int> faces; ///< face of each triangle; empty: triangles are faces
   };
 
   /// A face or vertex of the file that is part of a fault.
   struct FaultyElement
   {
-    std::string  fault; ///< as in SurfaceFindings::faults
+    std::string  fault; ///< a line of SurfaceFindings::faults
     bool         is_face;
-    unsigned int index; ///< in the file, from 0
+    unsigned int index; ///< number in the file, from 0
   };
 
-  /// What is wrong with a surface that should bound a body.
+  /// Faults of a surface that should bound a body.
   struct SurfaceFindings
   {
-    /// A line each of what forbids cells inside: what, how many, where.
+    /// Faults that make the surface unfit to be filled with cells: a line each with kind, number
+    /// and place.
     std::vector<std::string> faults;
-    /// All of their faces, or of their vertices where these tell more; some more than once.
+    /// All faces of the faults, or their vertices where these tell more; some more than once.
     std::vector<FaultyElement> elements;
-    /// Whether all that is wrong is that there are several bodies, which no repair joins.
+    /// Whether the only fault is that there are several bodies, which no repair joins.
     bool several_bodies = false;
-    /// A line each of what is harmless: vertices that no face uses, or of equal places.
+    /// Harmless findings, a line each: vertices that no face uses, or that coincide.
     std::vector<std::string> notes;
-    /// The shell of each triangle: those that hang together through edges; by first triangle.
+    /// The shell of each triangle (component connected through edges), numbered by first triangle.
     std::vector<unsigned int> shells;
     unsigned int              n_shells = 0;
   };

@@ -9,16 +9,16 @@
 
 namespace Exemplar
 {
-  /// A side of a triangle: from corner k to corner k + 1.
+  /// A side of a triangle, from corner k to corner k + 1.
   struct TriangleSide
   {
     std::array<unsigned int, 2> vertices; ///< ascending
     unsigned int                triangle;
     unsigned int                corner;  ///< k
-    bool                        forward; ///< whether the triangle goes through it ascending
+    bool                        forward; ///< whether corner k has the smaller vertex
   };
 
-  /// All sides, sorted by their vertices, so that those of an edge follow one another; sides
+  /// All sides, sorted by their vertices, so that sides of an edge follow one another; sides
   /// without length, from a vertex to itself, are left out.
   std::vector<TriangleSide>
   sorted_sides(const TriangleSurface &surface);
@@ -36,20 +36,21 @@ namespace Exemplar
     }
   }
 
-  /// Sets that grow together: which of n things hang together.
+  /// Disjoint sets of the numbers 0 to n - 1, which can be joined.
   class UnionFind
   {
   public:
     explicit UnionFind(std::size_t n);
 
-    /// The smallest thing of the set.
+    /// The smallest element of the set of i.
     unsigned int
     root(unsigned int i);
 
     void
     join(unsigned int i, unsigned int j);
 
-    /// Of each thing the number of its set, by its smallest thing; their number.
+    /// Number the sets, in the order of their smallest elements; `sets` gets the number of each
+    /// element's set. Returns the number of sets.
     unsigned int
     number(std::vector<unsigned int> &sets);
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-// Questions of geometry that CGAL answers.
+// Geometric queries that CGAL answers.
 
 namespace Exemplar
 {
@@ -32,7 +32,8 @@ namespace Exemplar
     std::unique_ptr<Tree> tree;
   };
 
-  /// The distances of one surface's vertices, edges' and triangles' middles to another one.
+  /// Distances of a surface, sampled at its vertices and at the middles of its edges and triangles,
+  /// to another one.
   struct SurfaceDistance
   {
     double maximum = 0.;
@@ -42,8 +43,8 @@ namespace Exemplar
   SurfaceDistance
   distance_to(const NearestTriangle &to, const TriangleSurface &from);
 
-  /// For shells that are closed and do not intersect: the smallest shell around each, or the number
-  /// of shells for those within none.
+  /// The smallest shell around each shell, or the number of shells for those within none.
+  /// Precondition: shells are closed and do not intersect.
   std::vector<unsigned int>
   enclosing_shells(const TriangleSurface           &surface,
                    const std::vector<unsigned int> &shells,

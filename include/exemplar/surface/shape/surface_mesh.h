@@ -21,9 +21,9 @@ namespace Exemplar
     std::vector<unsigned int> face_groups;
     std::vector<std::string>  group_names;
 
-    /// What an .obj says of its faces beside: points of texture, which of them the corners of each
-    /// face have (of none that has none), and the lines (g, usemtl, o, s, mtllib) that stand before a
-    /// face, by its number.
+    /// Further data of the faces in an .obj: texture points, the texture points of each face's
+    /// corners (empty for faces without), and the lines (g, usemtl, o, s, mtllib) that stand before
+    /// a face, by its number.
     std::vector<std::array<double, 2>>               texture_points      = {};
     std::vector<std::vector<unsigned int>>           face_texture_points = {};
     std::vector<std::pair<std::size_t, std::string>> face_statements     = {};

@@ -15,12 +15,13 @@ namespace Exemplar
   class SurfacePaths
   {
   public:
-    /// From the nearest of some vertices. Distances greater than `limit` are not looked for.
+    /// Distances from the nearest of the `sources`, which are vertices; none greater than `limit`
+    /// is searched for.
     SurfacePaths(const TriangleSurface           &surface,
                  const std::vector<unsigned int> &sources,
                  double                           limit);
 
-    /// Infinite if there is no path within the limit.
+    /// The distance of a point from the sources; infinite if there is no path within the limit.
     double
     distance(const SurfacePoint &point) const;
 
@@ -40,10 +41,10 @@ namespace Exemplar
 
     const TriangleSurface                          &surface;
     const double                                    limit;
-    std::vector<unsigned int>                       same;  ///< the first vertex of each one's place
-    std::vector<std::array<unsigned int, 2>>        edges; ///< sorted
-    std::vector<std::array<unsigned int, n_around>> around;    ///< of each triangle
-    std::vector<double>                             distances; ///< of the points
+    std::vector<unsigned int>                       same;   ///< first vertex at each vertex's place
+    std::vector<std::array<unsigned int, 2>>        edges;  ///< sorted
+    std::vector<std::array<unsigned int, n_around>> around; ///< points around each triangle
+    std::vector<double>                             distances; ///< distance of each point
   };
 } // namespace Exemplar
 

@@ -6,8 +6,8 @@
 
 #include <string>
 
-// Surfaces that are to be poses of another one: the same vertices in the same order. All checks
-// throw UserError and call surfaces by the names that are handed in.
+// Checks of surfaces that are to be poses of another one, with the same vertices in the same order.
+// All throw UserError and call surfaces by the names that are handed in.
 
 namespace Exemplar
 {
@@ -30,8 +30,8 @@ namespace Exemplar
              const SurfaceMesh &pose,
              const std::string &pose_name);
 
-  /// x, y or z if a pose is turned against the surface at rest by a right angle about this axis, to 8
-  /// degrees, as one with another axis upwards is; else empty.
+  /// The axis x, y or z about which a pose is turned by a right angle (to 8 degrees) against the
+  /// surface at rest, as a pose with another axis upwards is; else empty.
   std::string
   axis_of_right_angle(const SurfaceMesh &rest, const SurfaceMesh &pose);
 

@@ -6,7 +6,7 @@
 
 namespace Exemplar
 {
-  /// A surface that was mended, and what was done to it, a line each.
+  /// A repaired surface, and the repairs that were made, a line each.
   struct RepairedSurface
   {
     TriangleSurface          surface;
@@ -20,12 +20,12 @@ namespace Exemplar
   RepairedSurface
   repair(const TriangleSurface &surface);
 
-  /// How far a wrap runs outside, over the openings that it closes.
+  /// Offset of a wrap from the surface, over the size of the openings that it closes.
   constexpr double wrap_distance = .05;
 
-  /// A closed surface around whatever the triangles are (Portaneri et al. 2022, alpha wrapping, by
-  /// CGAL): openings of less than `openings` times the diagonal are closed, and it runs
-  /// wrap_distance of that outside.
+  /// A closed surface around any triangles (Portaneri et al. 2022, alpha wrapping, by CGAL):
+  /// openings of less than `openings` times the diagonal are closed, and its offset is
+  /// wrap_distance times that size.
   TriangleSurface
   wrap(const TriangleSurface &surface, double openings);
 } // namespace Exemplar

@@ -6,18 +6,19 @@
 
 namespace Exemplar
 {
-  /// A surface of triangles, counterclockwise seen from outside where that is checked.
+  /// A triangle surface; where orientation is checked, triangles are counterclockwise seen from
+  /// outside.
   struct TriangleSurface
   {
     using Vertex = SurfaceMesh::Vertex;
 
     std::vector<Vertex>                      vertices;
     std::vector<std::array<unsigned int, 3>> triangles; ///< vertices from 0
-    std::vector<unsigned int> groups; ///< of each triangle; an index of SurfaceMesh::group_names
+    std::vector<unsigned int> groups; ///< one a triangle: index of SurfaceMesh::group_names
   };
 
-  /// The polygons of a surface cut into triangles; no vertex is moved or added. A polygon is cut
-  /// at the ear with the largest smallest angle, again and again, as seen along its normal (Newell),
+  /// The polygons of a surface cut into triangles; no vertex is moved or added. A polygon is cut at
+  /// the ear with the largest smallest angle, again and again, as seen along its normal (Newell),
   /// so that polygons that are not convex keep their shape. The triangles of a polygon follow one
   /// another; `faces`, if given, gets the polygon of each triangle. Without groups all are of 0.
   TriangleSurface
@@ -31,7 +32,7 @@ namespace Exemplar
   double
   diagonal_of(const std::vector<SurfaceMesh::Vertex> &vertices);
 
-  /// Of a triangle.
+  /// The area of a triangle.
   double
   area_of(const TriangleSurface &surface, std::size_t triangle);
 } // namespace Exemplar

@@ -26,11 +26,11 @@ namespace Exemplar
     struct Place
     {
       unsigned int          cell;
-      std::array<double, 4> shares; ///< of its nodes: barycentric coordinates, to rounding >= 0
+      std::array<double, 4> shares; ///< barycentric coordinates, >= 0 to rounding
     };
 
-    /// Nothing if the point is outside the mesh. On a border it is in the cell where it lies
-    /// deepest, of several in the first.
+    /// The cell of a point; nothing if the point is outside the mesh. A point on a face between
+    /// cells is in the cell where it lies deepest, of several in the first.
     std::optional<Place>
     find(const dealii::Point<3> &point) const;
 

@@ -7,18 +7,18 @@
 
 #include <optional>
 
-// Where limbs touch and lips almost do, the nearest point of a surface may be of another part of it,
-// which faces the other way.
+// Nearest points of a surface on the part that faces the right way: where limbs touch and lips
+// almost do, the nearest point may be of another part, which faces the other way.
 
 namespace Exemplar
 {
-  /// Whether a triangle faces so much against a normal of length 1 that it must be of another part.
+  /// Whether a triangle faces so much against a unit normal that it must be of another part.
   bool
   faces_away(const TriangleSurface &surface, unsigned int triangle, const SpaceVector &normal);
 
-  /// For each of `points`, of which `nearest` are the nearest on the surface: nothing, unless its nearest
-  /// triangle faces_away() from its normal. Then the point nearest to it on triangles that face the same way; nothing if that is farther than the
-  /// triangle is long.
+  /// Replacements of nearest points: for each of `points`, with its nearest point in `nearest`,
+  /// nothing, unless its nearest triangle faces_away() from its normal. Then the point nearest to
+  /// it on triangles that face the same way; nothing if that is farther than the triangle is long.
   std::vector<std::optional<SurfacePoint>>
   facing_points(const TriangleSurface                  &surface,
                 const std::vector<SurfaceMesh::Vertex> &points,

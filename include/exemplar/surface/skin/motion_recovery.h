@@ -11,7 +11,7 @@ namespace Exemplar
 {
   class Mesh;
 
-  /// A sum of nodal values times coefficients, put together node by node.
+  /// A linear combination of nodal values, put together node by node.
   class NodalSum
   {
   public:
@@ -27,7 +27,7 @@ namespace Exemplar
       double       coefficient;
     };
 
-    /// All that was added, by ascending nodes. Begins a new sum.
+    /// The summands, by ascending nodes. Begins a new sum.
     std::vector<Share>
     take();
 
@@ -37,12 +37,13 @@ namespace Exemplar
     std::vector<unsigned int> nodes;
   };
 
-  /// The motion around nodes to the second order, from what the nodes around them do. In the cells
-  /// the gradient is constant; here a quadratic polynomial is fitted to the values at a node's
-  /// neighbours, as the polynomial-preserving recovery does (Zhang and Naga 2005, SIAM J. Sci.
-  /// Comput. 26), so that first and second derivatives are exact for quadratic motions, at the
-  /// boundary, too. A mesh that does not tell squares from linear functions, one cell thick,
-  /// leaves the linear ones exact. The fit is of places at rest alone: no motion makes it fail.
+  /// The motion around nodes to second order, recovered from the displacements of the nodes around
+  /// them. In the cells the gradient is constant; here a quadratic polynomial is fitted to the
+  /// values at a node's neighbours, as the polynomial-preserving recovery does (Zhang and Naga
+  /// 2005, SIAM J. Sci. Comput. 26), so that first and second derivatives are exact for quadratic
+  /// motions, at the boundary, too. On a mesh one cell thick, where squares and linear functions
+  /// coincide at the nodes, linear motions are still exact. The fit depends on places at rest
+  /// alone: no motion makes it fail.
   class MotionRecovery
   {
   public:
@@ -60,7 +61,7 @@ namespace Exemplar
                NodalSum                   &sum) const;
 
   private:
-    static constexpr std::size_t n_monomials = 9; ///< of degree 1 and 2
+    static constexpr std::size_t n_monomials = 9; ///< monomials of degree 1 and 2
 
     /// Monomials of degree 1, then of degree 2.
     static std::array<double, n_monomials>
@@ -70,7 +71,7 @@ namespace Exemplar
     /// the node.
     struct Fit
     {
-      dealii::Tensor<2, 3>      to_round; ///< in which the neighbourhood is round
+      dealii::Tensor<2, 3>      to_round; ///< map that makes the neighbourhood round
       std::vector<unsigned int> neighbours;
       std::vector<std::array<double, n_monomials>> coefficients;
     };
@@ -82,7 +83,7 @@ namespace Exemplar
     static void
     make_exact_for_linear(Fit &fit, unsigned int node, const Mesh &mesh);
 
-    std::vector<Fit> fits; ///< of each node
+    std::vector<Fit> fits; ///< fit of each node
   };
 } // namespace Exemplar
 

@@ -9,13 +9,13 @@
 
 namespace Exemplar
 {
-  /// Vertices that a sheet of the body carries which is not their own: where sheets touch or overlap
-  /// at rest, a vertex at a rim is as near to the other one. An edge of the surface is broken if its
-  /// ends are near, but not what carries them. What unbroken edges join is one sheet; of a connected
-  /// part of the surface the largest is taken for right. The others are given out one by one, each
-  /// beside neighbours that are right, the first time in the order of the vertices.
-  ///
-  /// `is_broken(a, b)` tells of an edge; `move_beside(v, right)` gives vertex v a place beside those.
+  /// Moves vertices that are carried by a sheet of the body which is not their own: where sheets
+  /// touch or overlap at rest, a vertex at a rim is as near to the other one. An edge of the
+  /// surface is broken if its ends are near, but their anchors are not. Vertices joined by unbroken
+  /// edges are one sheet; the largest sheet of a connected part of the surface is taken to be
+  /// right. The other vertices are moved one by one, each beside neighbours that are right, in each
+  /// round in the order of the vertices. `is_broken(a, b)` tells whether an edge is broken;
+  /// `move_beside(v, right)` gives vertex v an anchor beside those of `right`.
   void
   put_on_own_sheets(
       const SurfaceMesh                                                          &surface,

@@ -13,18 +13,19 @@ namespace Exemplar
   /// The point of a body at rest to which a vertex of its surface belongs.
   struct SurfaceAnchor
   {
-    std::array<unsigned int, 4> nodes;  ///< of its cell; on a boundary face three and one again
-    std::array<double, 4>       shares; ///< of the nodes; they sum to 1
-    dealii::Point<3>            place;  ///< [m]; that of the vertex, where it is inside
+    std::array<unsigned int, 4> nodes;  ///< nodes of the cell; of a face three and one again
+    std::array<double, 4>       shares; ///< barycentric coordinates, sum 1
+    dealii::Point<3>            place;  ///< place at rest [m]; the vertex itself, if inside
   };
 
-  /// The anchors of all vertices [m] of a surface: a vertex inside is where it is, one outside at the
-  /// nearest point of the mesh's boundary. The nearest point may be of another limb that comes close;
-  /// then the boundary faces the other way than the surface does at the vertex, and the nearest
-  /// point of those faces is taken that face the same way, if it is no farther than they are long.
-  /// For vertices inside a cell, too, if there is a gap between them and that point.
-  /// Where sheets overlap at rest, a vertex of one inside of cells of the other goes with its own: that of
-  /// its nearest boundary, and of its neighbours on the surface (put_on_own_sheets()).
+  /// The anchors of all vertices [m] of a surface: a vertex inside is its own anchor, one outside
+  /// has the nearest point of the mesh's boundary. The nearest point may be of another limb that
+  /// comes close; then the boundary faces the other way than the surface does at the vertex, and
+  /// the nearest point is sought on faces that face the same way, and taken if it is no farther
+  /// than they are long. So it is for vertices inside a cell, too, if there is a gap between them
+  /// and that point. Where sheets overlap at rest, a vertex of one sheet that lies inside cells of
+  /// the other is anchored to its own sheet: that of its nearest boundary, and of its neighbours on
+  /// the surface (put_on_own_sheets()).
   std::vector<SurfaceAnchor>
   find_anchors(const SurfaceMesh &surface, const Mesh &mesh);
 

@@ -8,27 +8,28 @@
 
 namespace Exemplar
 {
-  /// How the boundary nodes of a tetrahedral mesh hang on a surface: each at the nearest point of
-  /// the surface at rest that faces as the body does, and at a distance from it that turns with the
-  /// triangle. Surface and
-  /// boundary need not have the same resolution.
+  /// Attachment of the boundary nodes of a tetrahedral mesh to a surface: each to the nearest point
+  /// of the surface at rest that faces as the body does, with an offset from it that turns with the
+  /// triangle. Surface and boundary need not have the same resolution.
   class SurfaceAttachment
   {
   public:
     using Points   = std::vector<dealii::Point<3>>;
     using Vertices = std::vector<SurfaceMesh::Vertex>;
 
-    /// The mesh's nodes [m] and boundary faces, and the surface at rest [m].
+    /// Attaches the boundary nodes of a mesh, given by its nodes [m] and boundary faces, to the
+    /// surface at rest [m].
     SurfaceAttachment(const Points                    &nodes,
                       const std::vector<BoundaryFace> &faces,
                       TriangleSurface                  surface);
 
-    /// The same for some nodes, which may lie inside, at the nearest points; their get_areas() are 0.
+    /// Attaches the given nodes, which may lie inside, to their nearest points; their get_areas()
+    /// are 0.
     SurfaceAttachment(const Points             &nodes,
                       std::vector<unsigned int> which,
                       TriangleSurface           surface);
 
-    /// Boundary nodes, ascending, or those that were given.
+    /// The attached nodes: boundary nodes, ascending, or those that were given.
     const std::vector<unsigned int> &
     get_nodes() const
     {
@@ -49,7 +50,7 @@ namespace Exemplar
       return distances;
     }
 
-    /// The point of the surface at rest that each of get_nodes() hangs on.
+    /// The point of the surface at rest that each of get_nodes() is attached to.
     const std::vector<SurfacePoint> &
     get_points() const
     {
@@ -63,7 +64,7 @@ namespace Exemplar
       return rest;
     }
 
-    /// Where get_nodes() are to go in a pose, given by its vertices [m].
+    /// Target places of get_nodes() in a pose, given by its vertices [m].
     Points
     targets(const Vertices &vertices) const;
 
@@ -78,7 +79,7 @@ namespace Exemplar
     std::vector<double>               areas, distances;
     TriangleSurface                   rest;
     std::vector<SurfacePoint>         points;
-    std::vector<dealii::Tensor<1, 3>> offsets; ///< from point to node, at rest [m]
+    std::vector<dealii::Tensor<1, 3>> offsets; ///< vectors from point to node, at rest [m]
   };
 
   class Mesh;

@@ -12,12 +12,12 @@ namespace Exemplar
 {
   class Mesh;
 
-  /// What the surface around a mesh says of its nodes and cells.
+  /// Selections of nodes and values at cells by the surface around a mesh.
   class SurfaceSelector
   {
   public:
-    /// The surface in the unit of its file, which `scale` makes metres of. Keeps references to both
-    /// for as long as it lives. Throws UserError if the mesh is not one of its inside.
+    /// `surface` is in the unit of its file, of which `scale` makes metres. Keeps references to
+    /// mesh and surface. Throws UserError if the mesh is not one of the surface's inside.
     SurfaceSelector(const Mesh        &mesh,
                     const SurfaceMesh &surface,
                     double             scale,
@@ -34,12 +34,12 @@ namespace Exemplar
     std::vector<unsigned int>
     select(const std::string &text, const std::string &key, const NamedMaps &maps) const;
 
-    /// The value at the point of the surface nearest to the centre of each cell, of one that is
-    /// given at the vertices and linear over each triangle.
+    /// Values at the cells: the value at the point of the surface nearest to each cell's centre,
+    /// linear over each triangle between `values` at the vertices.
     std::vector<double>
     at_cells(const std::vector<double> &values) const;
 
-    /// Some nodes of the mesh as they hang on the surface.
+    /// The attachment of some nodes of the mesh to the surface.
     SurfaceAttachment
     hang(const std::vector<unsigned int> &nodes) const;
 
@@ -65,7 +65,7 @@ namespace Exemplar
     const SurfaceAttachment boundary;
 
     mutable std::vector<SurfacePoint>
-        centres; ///< nearest to each cell's; empty until they are needed
+        centres; ///< points nearest to the cells' centres; empty until needed
   };
 } // namespace Exemplar
 

@@ -10,20 +10,20 @@
 
 namespace Exemplar
 {
-  /// A surface that the body carries along. A vertex at X that belongs to the point P of the body (X
-  /// itself, inside; see find_anchors()) is displaced by
+  /// A surface that the body carries along. A vertex at X with the anchor P in the body (X itself,
+  /// inside; see find_anchors()) is displaced by
   ///
   ///   u = sum_a N_a(P) (u_a + 1/2 G_a (P - X_a) + G_a (X - P) + 1/2 (X - P) H_a (X - P))
   ///
-  /// over the nodes a of the cell or face of P, with derivatives G_a and H_a of the displacement that
-  /// are recovered at the nodes. Quadratic motions are carried exactly, so that the cells' borders do
-  /// not show as in sum_a N_a u_a; and without displacement the vertices are what they are at rest,
-  /// to the last bit.
+  /// over the nodes a of the cell or face of P, with first and second derivatives G_a and H_a of
+  /// the displacement that are recovered at the nodes. Quadratic motions are carried exactly, so
+  /// that the cells' borders do not show as in sum_a N_a u_a; without displacement the vertices are
+  /// at their rest places, to the last bit.
   class SurfaceSkin
   {
   public:
-    /// Of a surface in the unit of the mesh's file. If it has a name, which stands for it in
-    /// messages, it is checked: UserError for a surface that is not that of the mesh.
+    /// Attaches a surface, in the unit of the mesh's file. If `surface_name`, for messages, is not
+    /// empty, the surface is checked: UserError if it is not that of the mesh.
     SurfaceSkin(const SurfaceMesh &surface, const Mesh &mesh, const std::string &surface_name = "");
 
     /// The places of the vertices in the unit of the mesh's file, in the file's order, where the
@@ -31,11 +31,11 @@ namespace Exemplar
     std::vector<SurfaceMesh::Vertex>
     carry(const Vector &displacement) const;
 
-    /// The nodes that a vertex goes with: its displacement is the sum of theirs times these.
+    /// Nodes and coefficients of a vertex: its displacement is the sum of theirs times these.
     std::vector<NodalSum::Share>
     shares_of(std::size_t vertex) const;
 
-    /// Where a vertex is [m].
+    /// Place of a vertex at rest [m].
     dealii::Point<3>
     place_at_rest(std::size_t vertex) const;
 
@@ -46,9 +46,9 @@ namespace Exemplar
     SurfaceSkin(const SurfaceMesh &surface, double scale) : rest(surface.vertices), scale(scale) {}
 
     std::vector<SurfaceMesh::Vertex> rest;
-    double                           scale;  ///< makes metres of the file's unit
-    std::vector<NodalSum::Share>     shares; ///< of all vertices, one after the other
-    std::vector<std::size_t>         ends;   ///< of the shares of each vertex
+    double                           scale;  ///< metres per unit of the file
+    std::vector<NodalSum::Share>     shares; ///< coefficients of all vertices, one after the other
+    std::vector<std::size_t>         ends;   ///< end of each vertex's part of `shares`
   };
 
   /// A surface that is inside, on or outside of the body and goes along with it: a vertex at X is
