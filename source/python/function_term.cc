@@ -206,7 +206,7 @@ namespace Exemplar::Python
       const FreeDofs                                 *free_dofs = nullptr; ///< since attach()
       double                                          time;
       FunctionAnswer                                  accepted, last;
-      std::set<std::pair<unsigned int, unsigned int>> pairs; ///< of nodes, that are coupled
+      std::set<std::pair<unsigned int, unsigned int>> pairs; ///< pairs of coupled nodes
     };
   } // namespace
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
 PICTURES = TOP / "doc/figures"
-max_n_lines = 350
+max_n_lines = 600
 
 
 def folders_of_page():

@@ -95,7 +95,10 @@ namespace Exemplar
               const std::string      &section)
     {
       const char *const chosen_by = traits_of(law).chosen_by[0];
-      if (chosen_by != nullptr ? !is_chosen(law, constants) : law != scene.model.law())
+      // grain stands in Model's place
+      const bool is_of_model
+          = law == CellLaw::neo_hookean ? scene.model.is_neo_hookean() : law == scene.model.law();
+      if (chosen_by != nullptr ? !is_chosen(law, constants) : !is_of_model)
         return;
       for (const Refusal &refusal : refusals_of(law))
       {
@@ -119,9 +122,9 @@ namespace Exemplar
       material.for_each_section([&](const ElasticConstants &constants, const std::string &section)
                                 { check_law(law, *this, constants, section); });
     };
-    check(model.law()); // what Model asks for comes first
-    for (const CellLaw law : all_laws())
-      if (law != model.law())
-        check(law);
+    for (const bool is_chosen_by_model : { true, false }) // what Model asks for comes first
+      for (const CellLaw law : all_laws())
+        if ((traits_of(law).chosen_by[0] == nullptr) == is_chosen_by_model)
+          check(law);
   }
 } // namespace Exemplar
