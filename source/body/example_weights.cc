@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/conditioning.h>
+#include <exemplar/algebra/dense.h>
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/algebra/weight_qp.h>
 #include <exemplar/base/errors.h>
@@ -10,7 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <sstream>
 
 namespace Exemplar
 {
@@ -32,6 +36,7 @@ namespace Exemplar
         names += (example == 0 ? "" : " | ") + poses.name(example);
       return names;
     }
+
     WeightMemory
     make_memory(const ExampleParameters &parameters, const ExamplePoses &poses)
     {
@@ -159,6 +164,13 @@ namespace Exemplar
                         "Write one for each, separated by ';', not by commas. The examples are {}.",
                         key, list, n, n == 1 ? "weight" : "weights", poses.size(), n, poses.name(n),
                         names_of_examples(poses)));
+      else if (n > poses.size())
+        throw UserError(fmt::format(
+            "{} = '{}' has {} weights, but there {} only: {}. Write one for each; "
+            "Examples/Include rest pose = true adds the rest pose, which is the first.",
+            key, list, n,
+            poses.size() == 1 ? "is one example" : fmt::format("are {} examples", poses.size()),
+            names_of_examples(poses)));
       prescribed.emplace_back(key, list, "t", poses.size());
     }
   }
@@ -252,5 +264,129 @@ namespace Exemplar
   ExampleWeights::memory_consumption() const
   {
     return form.H.memory_consumption() + form.N.memory_consumption() + penalty.memory_consumption();
+  }
+
+  // Affinely dependent examples, whose weights are not unique.
+
+  namespace
+  {
+    /// Conditioning of the Gram matrix, as a clause after "which".
+    std::string
+    condition_of(const dealii::FullMatrix<double> &gram, const double min_pivot)
+    {
+      if (!(min_pivot > 0.))
+        return "is singular";
+      std::ostringstream text;
+      text << "has the condition number " << condition_number(gram);
+      return text.str();
+    }
+  } // namespace
+
+  void
+  ExampleWeights::check_independence(const double unit_energy, const bool has_ridge)
+  {
+    const unsigned int               k = n_per_region();
+    const dealii::FullMatrix<double> differences
+        = form_of_differences(poses.get_gram().matrix(), k);
+    const auto second = [k](const unsigned int d) { return d + d / (k - 1) + 1; };
+    // strains of 1e-10 are rounding errors of a rest pose
+    const double   of_rounding = std::pow(1e-10 * poses.constants().importance, 2) * unit_energy;
+    const MinPivot least       = min_pivot(differences, of_rounding);
+    if (differences.m() == 0 || least.ratio > 1e-8)
+      return;
+    const unsigned int example = second(least.row) % k;
+    const auto         region  = poses.get_regions().material_id(second(least.row) / k);
+    const std::string  where   = region ? fmt::format(" in region {}", *region) : "";
+    const std::string which = fmt::format("Example {} ({}){}", example, poses.name(example), where);
+    if (least.ratio < 1e-12 && !has_ridge)
+      throw UserError(which
+                      + " is an affine combination of the examples before it, so their weights "
+                        "are not determined. Remove it from Examples/Poses or Examples/Pose "
+                        "functions, or set Examples/Weight penalty to auto.");
+    std::ostringstream text;
+    text << which << " is " << (least.ratio < 1e-12 ? "" : "nearly ")
+         << "an affine combination of the examples before it (their Gram matrix "
+         << condition_of(differences, least.ratio) << "). "
+         << (has_ridge
+                 ? "The weight penalty decides between them; remove the example if it is there "
+                   "by mistake."
+                 : "Their weights are sensitive; remove the example, or set Examples/Weight "
+                   "penalty to auto.");
+    warnings.push_back(text.str());
+  }
+
+  // The KKT conditions of the weights.
+
+  namespace
+  {
+    /// Optimality condition of a weight: zero is between its one-sided derivatives plus the
+    /// multiplier or, at the bound, not above the right one.
+    struct Condition
+    {
+      WeightMemory::Slopes slopes;
+      bool                 is_off; ///< whether the weight is off its bound
+
+      bool
+      is_free() const
+      {
+        return is_off && !(slopes.up > slopes.down);
+      }
+
+      double
+      deviation(const double multiplier) const
+      {
+        const double up = slopes.up + multiplier, down = slopes.down + multiplier;
+        if (is_free())
+          return up;
+        return std::max({ -up, is_off ? down : 0., 0. });
+      }
+    };
+
+    /// The multiplier of a region: minus the mean derivative by its free weights; without free
+    /// ones, the middle of the interval that the other weights' conditions allow.
+    double
+    multiplier_of(const std::vector<Condition> &region)
+    {
+      double       sum = 0., least = -std::numeric_limits<double>::infinity(), greatest = -least;
+      unsigned int n = 0;
+      for (const Condition &condition : region)
+      {
+        if (condition.is_free())
+        {
+          sum += condition.slopes.up;
+          ++n;
+        }
+        least = std::max(least, -condition.slopes.up);
+        if (condition.is_off)
+          greatest = std::min(greatest, -condition.slopes.down);
+      }
+      return n > 0 ? -sum / n : 0.5 * (least + greatest);
+    }
+  } // namespace
+
+  WeightResidual
+  ExampleWeights::residual(const std::vector<double> &weights,
+                           const std::vector<double> &gradient) const
+  {
+    const unsigned int k = n_per_region();
+    WeightResidual     result;
+    if (!held.empty()) // held weights need no optimality
+    {
+      result.multipliers.assign(form.N.m(), 0.);
+      return result;
+    }
+    MaxMagnitude deviation;
+    for (unsigned int region = 0; region < form.N.m(); ++region)
+    {
+      std::vector<Condition> conditions;
+      for (unsigned int weight = region * k; weight < (region + 1) * k; ++weight)
+        conditions.push_back({ memory.slopes(weight, weights[weight], gradient[weight]),
+                               !bounded || weights[weight] > 0. });
+      result.multipliers.push_back(multiplier_of(conditions));
+      for (const Condition &condition : conditions)
+        deviation.add(condition.deviation(result.multipliers.back()));
+    }
+    result.deviation = deviation.value();
+    return result;
   }
 } // namespace Exemplar

@@ -22,8 +22,8 @@ namespace Exemplar::Live
 
     /// Gains of a damped follower, for each step: wanted displacement over the distance to the
     /// pointer, and share by which the displacement approaches the wanted one. Steps predict that
-    /// much; eagerness = agility / 2 makes the damping ratio about 0.7, with hardly any overshoot.
-    constexpr double eagerness = 0.1, agility = 0.2;
+    /// much; position_gain = velocity_gain / 2 makes the damping ratio about 0.7, with hardly any overshoot.
+    constexpr double position_gain = 0.1, velocity_gain = 0.2;
 
     /// Distance below which a pull has reached its pointer, over the diameter of the body.
     constexpr double relative_nearness = 1e-5;
@@ -158,9 +158,9 @@ namespace Exemplar::Live
       const dealii::Tensor<1, 3> rest_of_way = pull.to - pull.at;
       if (rest_of_way.norm() == 0.)
         return;
-      dealii::Tensor<1, 3> wanted = eagerness * rest_of_way;
+      dealii::Tensor<1, 3> wanted = position_gain * rest_of_way;
       wanted *= std::min(1., max_way / wanted.norm());
-      pull.way += agility * (wanted - pull.way);
+      pull.way += velocity_gain * (wanted - pull.way);
       const double near     = relative_nearness * diameter;
       const bool   is_there = rest_of_way.norm() < near && pull.way.norm() < near;
       pull.at               = is_there ? pull.to : pull.at + pull.way;

@@ -315,7 +315,7 @@ namespace Exemplar
                         [&](auto state)
                         {
                           using Cell = std::decay_t<decltype(state)>;
-                          if constexpr (Cell::traits.knows_volume)
+                          if constexpr (Cell::traits.has_volumetric_energy)
                             state.add_volume_pressure(
                                 cells.get_dilatation().volume.pressure(point));
                           energy += state.elastic_density();

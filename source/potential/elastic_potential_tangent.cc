@@ -87,7 +87,7 @@ namespace Exemplar
         state.set_target(D);
         if constexpr (Cell::traits.trace_gradient_is_R)
           state.add_pressure(cells.get_dilatation().pressure(point));
-        if constexpr (Cell::traits.knows_volume)
+        if constexpr (Cell::traits.has_volumetric_energy)
           state.add_volume_pressure(cells.get_dilatation().volume.pressure(point));
         if constexpr (!Cell::traits.convex_is_rotated)
           if (tangent == Tangent::convex)

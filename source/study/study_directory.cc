@@ -59,10 +59,10 @@ namespace Exemplar
   StudyDirectory::refuse_directory_of_others() const
   {
     // a study killed before its first file was complete leaves only the temporary
-    const bool is_stillborn = std::all_of(
+    const bool has_only_temporaries = std::all_of(
         fs::directory_iterator(path), fs::directory_iterator(),
         [&](const auto &entry) { return entry.path() == AtomicFile::temporary_of(study_prm()); });
-    if (!is_ours() && !is_stillborn)
+    if (!is_ours() && !has_only_temporaries)
       throw UserError("Output directory " + path.string()
                       + " is not empty and holds no study of exemplar." + remedy);
   }

@@ -132,7 +132,7 @@ SCENES = [
     ("no prescribed weights", PRESCRIBED,
      ["Examples/Prescribed weights is empty", "one function of t for each example", "1-t; t"]),
     ("too many prescribed weights", {**PRESCRIBED, "Examples/Prescribed weights": "1-t; t; 0"},
-     ["Examples/Prescribed weights", "3 formulas", "needs 2"]),
+     ["Examples/Prescribed weights", "has 3 weights, but there are 2 examples only", "Write one for each"]),
     ("free weights that remember", {**FREE, "Examples/Weights": "free", "Examples/Yield": "10"},
      ["Examples/Yield", "Examples/Weights = free", "no bounds", "Examples/Weights = simplex", "remove Examples/Yield"]),
     ("prescribed weights that remember",

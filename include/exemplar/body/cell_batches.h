@@ -136,10 +136,11 @@ namespace Exemplar
 
     /// Whether the energies of all cells depend on J = det F, which patches may replace by a mean.
     bool
-    knows_volume() const
+    has_volumetric_energy() const
     {
       return std::all_of(of_laws.begin(), of_laws.end(),
-                         [](const OfLaw &of_law) { return traits_of(of_law.law).knows_volume; });
+                         [](const OfLaw &of_law)
+                         { return traits_of(of_law.law).has_volumetric_energy; });
     }
 
     Matrix3<double>

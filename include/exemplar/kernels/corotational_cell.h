@@ -36,7 +36,7 @@ namespace Exemplar
                                             /* exact_is_rotated */ false,
                                             /* convex_is_rotated */ true,
                                             /* trace_gradient_is_R */ true,
-                                            /* turns_freely */ true };
+                                            /* is_frame_indifferent */ true };
 
     /// e = S - I, Eq. (2).
     static Matrix3<Number>

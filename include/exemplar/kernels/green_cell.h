@@ -40,7 +40,7 @@ namespace Exemplar
             /* exact_is_rotated */ false,
             /* convex_is_rotated */ false,
             /* trace_gradient_is_R */ false,
-            /* turns_freely */ true };
+            /* is_frame_indifferent */ true };
 
     static Matrix3<Number>
     strain_of(const Matrix3<Number> & /*rotation*/, const Matrix3<Number> &deformation_gradient)

@@ -25,7 +25,7 @@ namespace Exemplar
             /* exact_is_rotated */ true,
             /* convex_is_rotated */ true,
             /* trace_gradient_is_R */ true,
-            /* turns_freely */ turns };
+            /* is_frame_indifferent */ turns };
 
     /// e = sym(R^T F) - I.
     static Matrix3<Number>

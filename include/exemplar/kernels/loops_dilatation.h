@@ -44,7 +44,7 @@ namespace Exemplar::Loops
   [[gnu::always_inline]] inline void
   add_volume_pressure(const CellTask &task, const LaneGroup<Number> &group, Cell &cell)
   {
-    if constexpr (Cell::traits.knows_volume)
+    if constexpr (Cell::traits.has_volumetric_energy)
       if (task.dilatation.volume.pressures != nullptr)
         cell.add_volume_pressure(load(task.dilatation.volume.pressures, group, 1, 0));
   }
@@ -53,7 +53,7 @@ namespace Exemplar::Loops
   template <typename Number>
   struct PatchStress
   {
-    bool   acts = false;
+    bool   acts     = false;
     Number pressure = Number(0.), scale = Number(0.);
   };
 
@@ -78,7 +78,7 @@ namespace Exemplar::Loops
     Number       of_strain = trace(strain);
     const Number square    = contract(F, F);
     store(task.cells, group, square, task.dilatation.squares);
-    if constexpr (Cell::traits.knows_volume)
+    if constexpr (Cell::traits.has_volumetric_energy)
       store_volume(task, group, strain, F);
     if constexpr (Cell::traits.has_guard_of_patches())
     {

@@ -84,7 +84,7 @@ namespace Exemplar
     bool trace_gradient_is_R;
 
     /// Whether the energy without examples is invariant under rotations of the body.
-    bool turns_freely;
+    bool is_frame_indifferent;
 
     /// Number of history variables at each point; their initial values are 0. Such a law also has
     /// the members remember(), new_history(), inelastic_density() and energy(), see make_cell(),
@@ -102,7 +102,7 @@ namespace Exemplar
     /// Whether the energy depends on J = det F beside the strain. Then patches may have its volume
     /// part, as a function of their mean of J, Eq. (37). Such a law has the member
     /// add_volume_pressure().
-    bool knows_volume = false;
+    bool has_volumetric_energy = false;
 
     /// Names of the constants, at most two, whose positive values select this law for a cell; the
     /// last law selected applies. None: selected by other keys.
@@ -112,7 +112,7 @@ namespace Exemplar
     constexpr bool
     has_guard_of_patches() const
     {
-      return has_stretch_guard || knows_volume;
+      return has_stretch_guard || has_volumetric_energy;
     }
 
     /// Whether the law is a value of Model/Strain.

@@ -132,11 +132,11 @@ namespace Exemplar
                                             /* exact_is_rotated */ false,
                                             /* convex_is_rotated */ true,
                                             /* trace_gradient_is_R */ true,
-                                            /* turns_freely */ true,
+                                            /* is_frame_indifferent */ true,
                                             /* n_history */ 0,
                                             ModelTraits::not_remembered,
                                             ModelTraits::not_remembered,
-                                            /* knows_volume */ true };
+                                            /* has_volumetric_energy */ true };
 
     static constexpr std::array<Refusal, 6> refusals = {
       { { Beside::interpolation, " is for static and dynamic scenes: in an interpolation examples "

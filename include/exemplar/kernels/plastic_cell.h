@@ -38,7 +38,7 @@ namespace Exemplar
                                                       /* exact_is_rotated */ false,
                                                       /* convex_is_rotated */ false,
                                                       /* trace_gradient_is_R */ true,
-                                                      /* turns_freely */ true,
+                                                      /* is_frame_indifferent */ true,
                                                       /* n_history */ n_of_strain + 2,
                                                       /* plastic_strain */ n_of_strain,
                                                       /* dissipated */ n_of_strain + 1 },

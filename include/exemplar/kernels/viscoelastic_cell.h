@@ -81,7 +81,7 @@ namespace Exemplar
                       /* exact_is_rotated */ false,
                       /* convex_is_rotated */ false,
                       /* trace_gradient_is_R */ true,
-                      /* turns_freely */ true,
+                      /* is_frame_indifferent */ true,
                       /* n_history */ n_of_strain + 1, ModelTraits::not_remembered,
                       /* dissipated */ n_of_strain },
                     Constants::own_constants[0].name);

@@ -29,7 +29,7 @@ namespace Exemplar
                bool                  turns_freely);
 
     /// Assemble at these positions and weights, with the rotations as they are, and factorise.
-    /// `convexity` as for IncrementalPotential::assemble(). Throws SolverFailure if the matrix is
+    /// `convexity` as for PotentialTangent::assemble(). Throws SolverFailure if the matrix is
     /// not positive definite.
     void
     factorize(const Vector &positions, const std::vector<double> &weights, double convexity);

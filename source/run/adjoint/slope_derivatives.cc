@@ -50,7 +50,7 @@ namespace Exemplar
       PatchScene
       patch_scene(const PointScene &scene, const ModelTraits &law) const
       {
-        return { scene.blended_part, law.has_guard_of_patches(), law.knows_volume,
+        return { scene.blended_part, law.has_guard_of_patches(), law.has_volumetric_energy,
                  problem.body.material.has_elasticity_of_examples() };
       }
 

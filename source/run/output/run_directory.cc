@@ -181,9 +181,9 @@ namespace Exemplar
     const auto n_files
         = std::distance(fs::directory_iterator(get_path()), fs::directory_iterator());
     // a run killed before its first file was complete leaves only the temporary
-    const bool is_stillborn = static_cast<std::size_t>(n_files) == names.size()
-                              && std::all_of(names.begin(), names.end(), is_temporary);
-    if (!is_ours() && !is_stillborn)
+    const bool has_only_temporaries = static_cast<std::size_t>(n_files) == names.size()
+                                      && std::all_of(names.begin(), names.end(), is_temporary);
+    if (!is_ours() && !has_only_temporaries)
       throw UserError(
           "Output directory " + get_path().string()
           + (fs::exists(get_path() / "study.prm") && fs::is_directory(get_path() / "runs")

@@ -272,7 +272,7 @@ namespace Exemplar
           [&](auto state)
           {
             using Cell = std::decay_t<decltype(state)>;
-            if constexpr (Cell::traits.knows_volume)
+            if constexpr (Cell::traits.has_volumetric_energy)
               state.add_volume_pressure(cells.get_dilatation().volume.pressure(point));
             Matrix3<double> T
                 = state.stress_towards(problem.examples.poses.strain(point, at.weights));

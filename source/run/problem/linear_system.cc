@@ -34,14 +34,14 @@ namespace Exemplar
     /// Relative residuals of linear solves. Newton's method and the fixed point correct errors in
     /// their next iteration; one pass does not, and Schur complements are small differences of
     /// solutions.
-    constexpr double tolerance_of_iterations = 1e-4, tolerance_of_last_word = 1e-8;
+    constexpr double tolerance_of_iterations = 1e-4, tolerance_of_accurate_solves = 1e-8;
 
     double
     tolerance_of_solves(const SolverParameters &solver, const unsigned int n_examples)
     {
       if (solver.method == Method::one_pass)
-        return std::min(tolerance_of_last_word, solver.tolerance);
-      return n_examples > 0 ? tolerance_of_last_word : tolerance_of_iterations;
+        return std::min(tolerance_of_accurate_solves, solver.tolerance);
+      return n_examples > 0 ? tolerance_of_accurate_solves : tolerance_of_iterations;
     }
 
     /// A Cholesky factorisation for a pattern; null if the choice is automatic and it does not pay.

@@ -25,7 +25,8 @@ namespace Exemplar
     bool
     turns_freely(const Problem &problem)
     {
-      return problem.constraints.support && traits_of(problem.parameters.model.law()).turns_freely;
+      return problem.constraints.support
+             && traits_of(problem.parameters.model.law()).is_frame_indifferent;
     }
 
     /// Let handles hold as in a step that begins at this time.

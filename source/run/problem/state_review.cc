@@ -108,7 +108,7 @@ namespace Exemplar
     describe_turned(const Problem &problem)
     {
       const ModelTraits traits = traits_of(problem.parameters.model.law());
-      if (traits.turns_freely)
+      if (traits.is_frame_indifferent)
         return {};
       double         maximum  = 0.;
       const FESpace &fe_space = problem.body.fe_space;

@@ -51,9 +51,9 @@ namespace Exemplar
   /// Settings that all patches of a law share.
   struct PatchScene
   {
-    double blended_part; ///< share of the blended energy
-    bool   has_guard;    ///< whether Eq. (26) acts
-    bool   knows_volume; ///< whether Eq. (37) acts
+    double blended_part;          ///< share of the blended energy
+    bool   has_guard;             ///< whether Eq. (26) acts
+    bool   has_volumetric_energy; ///< whether Eq. (37) acts
     bool   has_own_examples;
   };
 
@@ -77,9 +77,9 @@ namespace Exemplar
     const Number theta = of[PatchSum::trace] / V, D = of[PatchSum::wish] / V;
     const Number half = Number(0.5) * lambda * V, of_trace = half * theta * theta;
     const Number eta   = of[PatchSum::importance] / V;
-    const Number share = scene.knows_volume ? importance : Number(1.);
+    const Number share = scene.has_volumetric_energy ? importance : Number(1.);
     Number       sum   = half * (theta - D) * (theta - D);
-    if (scene.knows_volume)
+    if (scene.has_volumetric_energy)
     {
       const Number change = of[PatchSum::volume_change] / V;
       sum += (Number(1.) - share) * (half * change * change - of_trace);

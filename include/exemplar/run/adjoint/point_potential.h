@@ -58,12 +58,12 @@ namespace Exemplar
         found.by_shape
             = combine(Number(1.), found.by_shape,
                       Number(2.) * constant<Number>(factors[PatchSum::square]), at.shape);
-        if constexpr (Cell::traits.knows_volume)
+        if constexpr (Cell::traits.has_volumetric_energy)
           found.by_shape
               = combine(Number(1.), found.by_shape,
                         constant<Number>(factors[PatchSum::volume_change]), cofactors(at.shape));
       }
-      if constexpr (Cell::traits.knows_volume)
+      if constexpr (Cell::traits.has_volumetric_energy)
         found.by_shape = combine(Number(1.), found.by_shape, Number(share) * change_of_importance(),
                                  of_examples_alone());
       found.by_wish = times(eta, found.by_wish);
@@ -81,7 +81,7 @@ namespace Exemplar
       if constexpr (Cell::traits.has_guard_of_patches())
         if (this->may_be_thin()) // hardly ever
           sums[PatchSum::guard] = guard_of_patch();
-      if constexpr (Cell::traits.knows_volume)
+      if constexpr (Cell::traits.has_volumetric_energy)
         sums[PatchSum::volume_change] = volume_change(cell.strain());
       sums[PatchSum::trace_square] = sums[PatchSum::trace] * sums[PatchSum::trace];
       return sums;
@@ -114,7 +114,7 @@ namespace Exemplar
     of_share() const
     {
       Number sum(0.);
-      if constexpr (Cell::traits.knows_volume)
+      if constexpr (Cell::traits.has_volumetric_energy)
       {
         const Number change = change_of_importance();
         const Number of_strain
@@ -152,7 +152,7 @@ namespace Exemplar
     Number
     guard_of_patch() const
     {
-      const Number               share = Cell::traits.knows_volume ? at.importance : Number(1.);
+      const Number share = Cell::traits.has_volumetric_energy ? at.importance : Number(1.);
       const StretchGuard<Number> guard(at.material.isotropic_part().scaled(share),
                                        cell.stretch_factor(), cell.product_of_sums());
       return guard.acts() ? guard.energy() : Number(0.);
@@ -189,7 +189,7 @@ namespace Exemplar
     std::optional<PointStress<Number>>
     regular_stress(const double share, const FactorsAtPoint &of_patches)
     {
-      if constexpr (Cell::traits.knows_volume) // their force is not of damping alone
+      if constexpr (Cell::traits.has_volumetric_energy) // their force is not of damping alone
         return {};
       const bool was_thin
           = Cell::traits.has_guard_of_patches() && ThinTrace<Number>::of_strain(at.wish).acts();
