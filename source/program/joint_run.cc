@@ -17,6 +17,8 @@
 #include <iostream>
 #include <limits>
 #include <mpi.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
 #include <vector>
@@ -110,6 +112,23 @@ namespace Exemplar
                          std::string(name, length));
     }
 
+    /// Wait until the reader of a pipe has taken what stands in it: Open MPI 5 loses what it has not read
+    /// when it ends the processes.
+    void
+    wait_for_reader(const int pipe)
+    {
+      constexpr double limit = 2.; // [s]; a reader that has stopped must not keep the program
+      comes_true(
+          [pipe]
+          {
+            struct stat of_pipe = {};
+            int         unread  = 0;
+            return fstat(pipe, &of_pipe) != 0 || !S_ISFIFO(of_pipe.st_mode)
+                   || ioctl(pipe, FIONREAD, &unread) != 0 || unread == 0;
+          },
+          limit);
+    }
+
     /// Abort all processes with this status. Unlike after MPI_Finalize, mpirun adds no message of
     /// its own.
     [[noreturn]] void
@@ -118,6 +137,8 @@ namespace Exemplar
       // suppresses Open MPI's message on MPI_Abort
       if (void *quiet = dlsym(RTLD_DEFAULT, "orte_execute_quiet"))
         *static_cast<bool *>(quiet) = true;
+      wait_for_reader(STDOUT_FILENO);
+      wait_for_reader(STDERR_FILENO);
       MPI_Abort(ending, status);
       _exit(status);
     }
@@ -319,7 +340,10 @@ namespace Exemplar
     if (speaker == together.n_processes)
       return 0;
     if (speaker == together.process)
+    {
       report(place());
+      wait_for_reader(STDERR_FILENO);
+    }
     MPI_Bcast(&status, 1, MPI_INT, speaker, ending); // after the message has been printed
     end_all(status);
   }

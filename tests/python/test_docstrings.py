@@ -14,6 +14,8 @@ import exemplar
 from test_interface import BAR, named_members
 
 SCENE = {**BAR, "Time": {"Step": 0.05, "End": 0.5}, "Material": {"Young's modulus": 1e5, "Poisson's ratio": 0.3}}
+if np.lib.NumpyVersion(np.__version__) >= "2.0.0":
+    np.set_printoptions(legacy="1.25")  # numbers as doctests have them, without their types
 HOW = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE | doctest.IGNORE_EXCEPTION_DETAIL
 NEEDS = {name: package for package, names in {
     "scipy": ("Problem.hessian", "Problem.reduced_hessian", "Problem.mass", "Problem.add_term"),

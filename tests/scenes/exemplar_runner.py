@@ -106,6 +106,11 @@ def without_what_is_meant(lines):
     return [line for line in lines if not MEANT.match(line)]
 
 
+def messages_in(stderr):
+    """Errors and warnings of the program among what launchers say, who may end their words by a zero byte (PRRTE does)."""
+    return [line for line in stderr.replace("\0", "").splitlines() if line.startswith(("exemplar: ", "Warning: "))]
+
+
 def own_words(stderr, program=EXEMPLAR):
     """What the program itself has said: tests must not depend on what MPI misses on a machine."""
     if not stderr:

@@ -13,7 +13,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from exemplar_runner import EXEMPLAR, without_what_is_meant
+from exemplar_runner import EXEMPLAR, messages_in, without_what_is_meant
 
 # Of Open MPI 4, and of 5 with its PRRTE: it may be root who starts more processes than there are cores, and those that wait for
 # others leave them the core.
@@ -107,8 +107,7 @@ def run_processes(n, *command, environment=None, timeout=240, cwd=None):
 def launch(n, *arguments, program=EXEMPLAR, **how):
     """mpirun -n N exemplar ...: its status, what it said on stderr of our own words, and all of it."""
     done = run_processes(n, program, *arguments, **how)
-    own = [line for line in done.stderr.splitlines() if line.startswith(("exemplar: ", "Warning: "))]
-    return done.returncode, without_what_is_meant(own), done
+    return done.returncode, without_what_is_meant(messages_in(done.stderr)), done
 
 
 if __name__ == "__main__":

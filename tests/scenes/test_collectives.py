@@ -13,7 +13,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from exemplar_runner import (REPOSITORY, SceneTest, greatest_distance, has_trilinos, nodes_of, run_program, serve, set_words,
+from exemplar_runner import (REPOSITORY, SceneTest, greatest_distance, has_trilinos, messages_in, nodes_of, run_program, serve, set_words,
                              write_msh, write_scene)
 from mpirun import first_difference, launch, mismatch
 from surface_bar import bar_surface, obj_text
@@ -99,7 +99,7 @@ class Outcome:
         else:
             self.status, _, done = launch(n, *words, cwd=directory, timeout=timeout)
             stderr = done.stderr
-        self.messages = [line for line in stderr.splitlines() if line.startswith(("exemplar: ", "Warning: "))]
+        self.messages = messages_in(stderr)
         self.nodes = nodes_of(output / "final.msh") if self.status == 0 else {}
         shutil.rmtree(output, ignore_errors=True)
 

@@ -18,6 +18,9 @@ BUSY = "Another run is writing into the output directory out. Wait for its end o
 BEFORE = "exemplar: Interrupted before a run had begun.\n"
 
 
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # whoever starts the tests in the background may have it ignored, and programs inherit that
+
+
 class ProcessTest(SceneTest):
     def start(self, *arguments, **how):
         process = subprocess.Popen([EXEMPLAR, *arguments], cwd=self.directory, text=True,
