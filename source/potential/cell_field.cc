@@ -116,15 +116,28 @@ namespace Exemplar
     return task;
   }
 
+  LawInput<double>
+  CellField::law_input(const unsigned int point, const Matrix3<double> &F) const
+  {
+    LawInput<double> in = batches.law_input(point, rotation(point), F);
+    in.has_target       = true;
+    in.damping          = damping.factor(point);
+    in.is_damped        = in.damping > 0.;
+    if (in.is_damped)
+      in.past = damping.past_strain(point);
+    in.has_pressure    = true; // 0 without patches
+    in.pressure        = dilatation.pressure(point);
+    in.volume_pressure = dilatation.volume.pressure(point);
+    return in;
+  }
+
   void
   CellField::for_each_law_in_stripes(
-      const CellTask &task, void (*LawKernels::*loop)(const CellTask &, std::size_t, std::size_t))
+      const CellTask &task, void (*CellKernels::*loop)(const CellTask &, std::size_t, std::size_t))
   {
     nodal_sums.for_each_stripe(
-        [&](std::size_t /*stripe*/, const std::size_t begin, const std::size_t end, double *)
-        {
-          for_each_law(task, [&](const CellTask &of_law)
-                       { (kernels.of(of_law.cells.law).*loop)(of_law, begin, end); });
+        [&](std::size_t /*stripe*/, const std::size_t begin, const std::size_t end, double *) {
+          for_each_law(task, [&](const CellTask &of_law) { (kernels.*loop)(of_law, begin, end); });
         });
   }
 
@@ -132,19 +145,19 @@ namespace Exemplar
   CellField::update_dilatations(const Vector &positions, const RotationUse rotations)
   {
     dilatation.clear_flags();
-    for_each_law_in_stripes(task(positions, rotations), &LawKernels::dilatations);
+    for_each_law_in_stripes(task(positions, rotations), &CellKernels::dilatations);
   }
 
   void
   CellField::update_stretch_energies(const Vector &positions)
   {
-    for_each_law_in_stripes(task(positions, RotationUse::keep), &LawKernels::stretch_energies);
+    for_each_law_in_stripes(task(positions, RotationUse::keep), &CellKernels::stretch_energies);
   }
 
   void
   CellField::update_rotations(const Vector &positions)
   {
-    for_each_law_in_stripes(task(positions, RotationUse::update), &LawKernels::update_rotations);
+    for_each_law_in_stripes(task(positions, RotationUse::update), &CellKernels::update_rotations);
   }
 
   void
@@ -155,7 +168,7 @@ namespace Exemplar
     CellTask last;
     last.cells     = batches.arrays();
     last.positions = node_positions.data();
-    for_each_law_in_stripes(last, &LawKernels::update_rotations);
+    for_each_law_in_stripes(last, &CellKernels::update_rotations);
     rotations_are_forgotten = false;
   }
 
@@ -189,9 +202,8 @@ namespace Exemplar
   CellField::advance_history(const Vector &positions)
   {
     if (batches.remembers())
-      for_each_law(
-          task(positions, RotationUse::keep), [&](const CellTask &of_law)
-          { kernels.of(of_law.cells.law).advance_history(of_law, 0, of_law.cells.n_batches()); });
+      for_each_law(task(positions, RotationUse::keep), [&](const CellTask &of_law)
+                   { kernels.advance_history(of_law, 0, of_law.cells.n_batches()); });
     batches.set_step_size(0.);
     return batches.history();
   }

@@ -236,10 +236,9 @@ namespace Exemplar
           cells.for_each_law(cell_task,
                              [&](const CellTask &of_law)
                              {
-                               cells.loops()
-                                   .of(of_law.cells.law)
-                                   .evaluate(of_law, begin, end, sums,
-                                             weight_sums.of_stripe(stripe), stripes[stripe]);
+                               cells.loops().evaluate(of_law, begin, end, sums,
+                                                      weight_sums.of_stripe(stripe),
+                                                      stripes[stripe]);
                              });
         });
     CellSums sums;
@@ -270,12 +269,9 @@ namespace Exemplar
         [&](const std::size_t stripe, const std::size_t begin, const std::size_t end, double *)
         {
           cells.for_each_law(cell_task,
-                             [&](const CellTask &of_law)
-                             {
-                               cells.loops()
-                                   .of(of_law.cells.law)
-                                   .weight_linear_term(of_law, begin, end,
-                                                       weight_sums.of_stripe(stripe));
+                             [&](const CellTask &of_law) {
+                               cells.loops().weight_linear_term(of_law, begin, end,
+                                                                weight_sums.of_stripe(stripe));
                              });
         });
     std::vector<double> linear_term = weight_sums.total();
@@ -308,21 +304,15 @@ namespace Exemplar
     {
       const unsigned int    cell = parts.fe_space.cell_of(point);
       const Matrix3<double> F    = parts.fe_space.deformation_gradient(point, positions);
-      const Matrix3<double> R    = cells.rotation(point);
-      Matrix3<double>       T;
-      double                energy = densities[point];
-      batches.with_cell(point, R, F,
-                        [&](auto state)
-                        {
-                          using Cell = std::decay_t<decltype(state)>;
-                          if constexpr (Cell::traits.has_volumetric_energy)
-                            state.add_volume_pressure(
-                                cells.get_dilatation().volume.pressure(point));
-                          energy += state.elastic_density();
-                          energy += state.is_stretched() ? state.stretch().energy() : 0.;
-                          T = state.stress_towards(parts.examples.strain(point, weights));
-                        });
-      const double third = trace(T) / 3.;
+      LawInput<double>      in   = cells.law_input(point, F);
+      in.target                  = parts.examples.strain(point, weights);
+      const auto      &law       = law_functions<double>(batches.law(point));
+      LawValue<double> value;
+      law.evaluate(in, false, value);
+      const double energy
+          = densities[point] + value.elastic + law.stretch_guard(in).energy_or_zero();
+      Matrix3<double> T     = law.stress(in);
+      const double    third = trace(T) / 3.;
       for (int i = 0; i < 3; ++i)
         T[i][i] -= third;
       const double von_mises = std::sqrt(1.5 * contract(T, T));

@@ -11,14 +11,6 @@ namespace Exemplar
 {
   namespace
   {
-    /// Whether the tangent of a law is R K R^T.
-    bool
-    is_rotated_stiffness(const CellLaw law, const Tangent tangent)
-    {
-      const ModelTraits traits = traits_of(law);
-      return tangent == Tangent::exact ? traits.exact_is_rotated : traits.convex_is_rotated;
-    }
-
     /// What a displacement changes at single quadrature points, by the tangent of a kind at some positions
     /// and weights; it is added to `sums`.
     class PointResponse
@@ -36,65 +28,31 @@ namespace Exemplar
       void
       add(const unsigned int point, const Vector &displacement)
       {
-        const CellLaw         law = cells.get_batches().law(point);
-        const Matrix3<double> M   = transpose_times(
-              cells.rotation(point), parts.fe_space.deformation_gradient(point, displacement));
-        with_cell_model<double>(law,
-                                [&](auto model)
-                                {
-                                  using Cell = typename decltype(model)::type;
-                                  if (is_rotated_stiffness(law, tangent))
-                                    add_rotated<typename Cell::Constants>(point, M);
-                                  else if constexpr (!Cell::traits.exact_is_rotated)
-                                    add_of_law<Cell>(point, M);
-                                });
+        const auto           &law    = law_functions<double>(cells.get_batches().law(point));
+        const bool            convex = tangent == Tangent::convex;
+        const Matrix3<double> M      = transpose_times(
+                 cells.rotation(point), parts.fe_space.deformation_gradient(point, displacement));
+        LawInput<double> in
+            = cells.law_input(point, parts.fe_space.deformation_gradient(point, at.positions));
+        in.target = parts.examples.strain(point, at.weights);
+        LawTangent<double> of_point;
+        law.tangent(in, convex, of_point);
+        add_force(point, of_point.response(M));
+        if (sums->weight_gradient.empty())
+          return;
+        parts.examples.for_each_weight(
+            point,
+            [&](const unsigned int weight, const unsigned int i, const double share)
+            {
+              const Matrix3<double> E = parts.examples.strain(point, i);
+              Matrix3<double>       dP;
+              law.columns(in, convex, 1, &E, &dP);
+              sums->weight_gradient[weight]
+                  -= share * parts.fe_space.volume(point) * contract(dP, M);
+            });
       }
 
     private:
-      /// Add the response of R K R^T, where R^T dF = M.
-      template <typename Constants>
-      void
-      add_rotated(const unsigned int point, const Matrix3<double> &M)
-      {
-        const auto            C  = cells.get_batches().constants<Constants>(point);
-        const Matrix3<double> de = symmetric_part(M);
-        add_force(point, stress(C.scaled(1. + cells.get_damping().factor(point)), de));
-        const Matrix3<double> dT = stress(C, de);
-        subtract_from_weights(point, [&](const Matrix3<double> &E) { return contract(dT, E); });
-      }
-
-      template <typename Cell>
-      void
-      add_of_law(const unsigned int point, const Matrix3<double> &M)
-      {
-        const Cell state = state_at<Cell>(point);
-        add_force(point, state.response(M));
-        const double factor = 1. / (1. + cells.get_damping().factor(point));
-        subtract_from_weights(point, [&](const Matrix3<double> &E)
-                              { return factor * contract(state.example_response(E), M); });
-      }
-
-      template <typename Cell>
-      Cell
-      state_at(const unsigned int point) const
-      {
-        Cell state = cells.get_batches().cell<Cell>(
-            point, cells.rotation(point), parts.fe_space.deformation_gradient(point, at.positions));
-        const StrainDamping &damping = cells.get_damping();
-        Matrix3<double>      D       = parts.examples.strain(point, at.weights);
-        if (const double s = damping.factor(point); s > 0.)
-          D = state.damp(D, s, damping.past_strain(point));
-        state.set_target(D);
-        if constexpr (Cell::traits.trace_gradient_is_R)
-          state.add_pressure(cells.get_dilatation().pressure(point));
-        if constexpr (Cell::traits.has_volumetric_energy)
-          state.add_volume_pressure(cells.get_dilatation().volume.pressure(point));
-        if constexpr (!Cell::traits.convex_is_rotated)
-          if (tangent == Tangent::convex)
-            state.make_convex();
-        return state;
-      }
-
       /// Nodal forces of a change of R^T P.
       void
       add_force(const unsigned int point, const Matrix3<double> &dP)
@@ -108,22 +66,6 @@ namespace Exemplar
           for (unsigned int c = 0; c < 3; ++c)
             sums->gradient[3 * nodes[a] + c] += force[c] * parts.fe_space.volume(point);
         }
-      }
-
-      /// `change` is that of the energy density with eta E_i [Pa].
-      template <typename Change>
-      void
-      subtract_from_weights(const unsigned int point, const Change &change)
-      {
-        if (sums->weight_gradient.empty())
-          return;
-        parts.examples.for_each_weight(
-            point,
-            [&](const unsigned int weight, const unsigned int i, const double share)
-            {
-              sums->weight_gradient[weight]
-                  -= share * parts.fe_space.volume(point) * change(parts.examples.strain(point, i));
-            });
       }
 
       const ElasticParts &parts;
@@ -140,13 +82,10 @@ namespace Exemplar
                                        const std::size_t  begin,
                                        const std::size_t  end) const
   {
-    const Tangent     kind    = tangent.convex ? Tangent::convex : Tangent::exact;
-    const bool        rotated = is_rotated_stiffness(task.cells.law, kind);
-    const LawKernels &loops   = cells.loops().of(task.cells.law);
-    (rotated ? loops.add_rotated_stiffness : loops.add_tangent)(task, tangent, begin, end);
+    cells.loops().add_tangent(task, tangent, begin, end);
     if (task.dilatation.traces != nullptr
         && (cells.get_dilatation().stretch.acts || cells.get_dilatation().has(thin_cells)))
-      loops.add_patch_tangent(task, tangent, begin, end);
+      cells.loops().add_patch_tangent(task, tangent, begin, end);
   }
 
   void
@@ -176,11 +115,10 @@ namespace Exemplar
   template <Element element>
   void
   ElasticPotential::assemble_coupling(const CellTask      &task,
-                                      const TangentTask   &tangent,
+                                      const bool           convex,
                                       std::vector<double> &columns)
   {
     constexpr std::size_t n_rows   = 3 * nodes_per_cell(element);
-    const Tangent         kind     = tangent.convex ? Tangent::convex : Tangent::exact;
     const ExamplePoses   &examples = parts.examples;
     const std::size_t     n = parts.free_dofs.local_list().size(), n_strained = task.examples.n;
     columns.assign(n * examples.n_strained_weights(), 0.);
@@ -190,15 +128,9 @@ namespace Exemplar
     {
       const std::size_t lane = point % batch_size;
       if (lane == 0)
-        cells.for_each_law(task,
-                           [&](const CellTask &of_law)
-                           {
-                             const bool rotated = is_rotated_stiffness(of_law.cells.law, kind);
-                             cells.loops()
-                                 .of(of_law.cells.law)
-                                 .coupling(of_law, tangent, rotated, point / batch_size,
-                                           forces.data());
-                           });
+        cells.for_each_law(
+            task, [&](const CellTask &of_law)
+            { cells.loops().coupling(of_law, convex, point / batch_size, forces.data()); });
       for (unsigned int p = 0; p < n_rows && point % points_per_cell(element) == 0; ++p)
         dof[p] = parts.free_dofs.free_index(3 * cells.node(point, p / 3) + p % 3);
       examples.for_each_weight(
@@ -236,7 +168,7 @@ namespace Exemplar
     columns.clear();
     if (parts.weights.n_unknown() > 0)
       with_element(parts.fe_space.element(),
-                   [&](const auto of) { assemble_coupling<of()>(cell_task, to, columns); });
+                   [&](const auto of) { assemble_coupling<of()>(cell_task, to.convex, columns); });
     if (patches != nullptr)
       patches->add_tangent({ positions, weights }, tangent, matrix_values, columns, products);
   }

@@ -204,9 +204,8 @@ namespace Exemplar
                 stretch.stiffnesses[point],
                 { stretch.elasticity[batch_index(point, 2, 0)],
                   stretch.elasticity[batch_index(point, 2, 1)] } };
-    auto cell = cells.get_batches().cell<CorotationalCell<double>>(point, cells.rotation(point), F);
-    cell.set_target(Matrix3<double>{});
-    return { cell, patch };
+    const LawInput<double> in = cells.law_input(point, F);
+    return { in.R, in.F, in.examples, patch };
   }
 
   bool

@@ -23,7 +23,9 @@ namespace Exemplar
         const Matrix3<double> F   = fe_space.deformation_gradient(point, *past.positions);
         const Matrix3<double> R   = model_rotation(law, F);
         add_to_stored(strains.data(), point, 1, 0, past.weight, model_strain(law, R, F));
-        if (cells.with_cell(point, R, F, [](const auto &cell) { return cell.is_guarded(); }))
+        LawValue<double> value;
+        law_functions<double>(law).evaluate(cells.law_input(point, R, F), false, value);
+        if (value.is_guarded)
           factors[point] = 0.;
       }
   }

@@ -68,8 +68,7 @@ namespace Exemplar
     rotations(benchmark::State &state, const CellKernels *kernels)
     {
       for (auto _ : state)
-        kernels->of(scene->task.cells.law)
-            .update_rotations(scene->task, 0, scene->task.cells.n_batches());
+        kernels->update_rotations(scene->task, 0, scene->task.cells.n_batches());
       report_cells(state);
     }
 
@@ -81,8 +80,7 @@ namespace Exemplar
       for (auto _ : state)
       {
         CellSums sums;
-        kernels->of(task.cells.law)
-            .evaluate(task, 0, task.cells.n_batches(), scene->forces.data(), nullptr, sums);
+        kernels->evaluate(task, 0, task.cells.n_batches(), scene->forces.data(), nullptr, sums);
         benchmark::DoNotOptimize(sums);
       }
       report_cells(state);

@@ -66,31 +66,20 @@ namespace Exemplar
                                      { return of_law.constants[batch_index(point, n, k)]; });
     }
 
-    /// The constitutive state of a point with rotation R and deformation gradient F, where Cell is
-    /// its law.
-    template <typename Cell>
-    Cell
-    cell(const unsigned int point, const Matrix3<double> &R, const Matrix3<double> &F) const
+    /// What a point with rotation R and deformation gradient F gives its law; nothing acts on it.
+    LawInput<double>
+    law_input(const unsigned int point, const Matrix3<double> &R, const Matrix3<double> &F) const
     {
-      Cell state(constants<typename Cell::Constants>(point), R, F, examples);
-      if constexpr (constexpr std::size_t n = Cell::traits.n_history; n > 0)
-        state.remember([&, &of_law = of_law_at(point)](const std::size_t k)
-                       { return of_law.history[batch_index(point, n, k)]; },
-                       step_size);
-      return state;
-    }
-
-    /// Call function(cell) with cell() of a point, for whichever law it has.
-    template <typename Function>
-    auto
-    with_cell(const unsigned int     point,
-              const Matrix3<double> &R,
-              const Matrix3<double> &F,
-              const Function        &function) const
-    {
-      return with_cell_model<double>(
-          law(point),
-          [&](auto model) { return function(cell<typename decltype(model)::type>(point, R, F)); });
+      const OfLaw     &of_law = of_law_at(point);
+      LawInput<double> in;
+      in.R         = R;
+      in.F         = F;
+      in.constants = &of_law.constants[batch_index(point, n_constants(of_law.law), 0)];
+      if (const std::size_t n = traits_of(of_law.law).n_history; n > 0)
+        in.history = &of_law.history[batch_index(point, n, 0)];
+      in.examples  = examples;
+      in.step_size = step_size;
+      return in;
     }
 
     /// Whether any law has history variables.

@@ -20,9 +20,12 @@ namespace Exemplar
     const double       *values;
   };
 
-  /// The loops over the cells of a group of laws, for batches begin to end - 1.
-  struct LawKernels
+  /// The loops over the cells of an element, for batches begin to end - 1; those with a task are for
+  /// the task's law.
+  struct CellKernels
   {
+    const char *name; ///< name of the instruction set
+
     void (*update_rotations)(const CellTask &, std::size_t begin, std::size_t end);
 
     /// Compute energies; add forces and force scales [N] to `nodal_sums`, four numbers a node of
@@ -49,13 +52,7 @@ namespace Exemplar
     /// Update the history variables at the end of a step, for these positions and their rotations.
     void (*advance_history)(const CellTask &, std::size_t begin, std::size_t end);
 
-    /// Add the stiffness R K R^T, Eq. (8).
-    void (*add_rotated_stiffness)(const CellTask &,
-                                  const TangentTask &,
-                                  std::size_t begin,
-                                  std::size_t end);
-
-    /// Add the exact tangent, or a convex one.
+    /// Add the tangent of the law.
     void (*add_tangent)(const CellTask &, const TangentTask &, std::size_t begin, std::size_t end);
 
     /// Add the tangent of patches in thin cells and where they are strongly stretched, as far as it
@@ -67,23 +64,7 @@ namespace Exemplar
 
     /// Columns of the coupling for one batch: the decrease of the nodal forces for a unit of each
     /// example's weight, three entries a node and example, each for all cells of the batch.
-    /// `rotated`: with rotations held fixed, as in R K R^T; else of the exact or convex tangent.
-    void (*coupling)(
-        const CellTask &, const TangentTask &, bool rotated, std::size_t batch, double *forces);
-  };
-
-  /// All loops over cells, for batches begin to end - 1.
-  struct CellKernels
-  {
-    const char *name; ///< name of the instruction set
-
-    LawKernels of_usual_laws, of_rare_laws, of_sums;
-
-    const LawKernels &
-    of(const CellLaw law) const
-    {
-      return law < first_rare_law ? of_usual_laws : law < first_sum ? of_rare_laws : of_sums;
-    }
+    void (*coupling)(const CellTask &, bool convex, std::size_t batch, double *forces);
 
     /// Add the rotations of the cells to sums at their nodes, twelve numbers a node of which nine
     /// count.
@@ -118,15 +99,10 @@ namespace Exemplar
     struct avx512;
   } // namespace Instructions
 
-  // CMake makes a source file of source/kernels/*_kernels.cc.in for each instance of these
-  // functions: what a compiler inlines depends on all of its translation unit.
+  // CMake makes a source file of source/kernels/cell_kernels.cc.in for each instance.
 
   template <typename Set, Element element>
   CellKernels cell_kernels(ElementConstant<element>);
-
-  /// The loops of the groups of laws beside the usual ones.
-  template <typename Set, typename Laws, Element element>
-  LawKernels law_kernels(Laws, ElementConstant<element>);
 
   /// The kernels of an element for the best instruction set that this CPU has.
   const CellKernels &

@@ -12,6 +12,7 @@
 #include <exemplar/kernels/polar_decomposition.h>
 #include <exemplar/kernels/viscoelastic_cell.h>
 
+#include <algorithm>
 #include <tuple>
 #include <vector>
 
@@ -56,41 +57,15 @@ namespace Exemplar
     using type = Cell;
   };
 
-  /// Laws `begin` to `end` - 1 of CellLaws.
-  template <std::size_t begin, std::size_t end>
-  struct LawRange
-  {
-  };
-
-  using AllLaws = LawRange<0, std::tuple_size_v<CellLaws<double>>>;
-
-  // Each group of laws has loops of its own, see cell_kernels_loops.h.
-
-  inline constexpr CellLaw first_rare_law = CellLaw::fibrous, first_sum = CellLaw::fibrous_plastic;
-
-  using UsualLaws = LawRange<0, static_cast<std::size_t>(first_rare_law)>;
-  using RareLaws
-      = LawRange<static_cast<std::size_t>(first_rare_law), static_cast<std::size_t>(first_sum)>;
-  using SumsOfLaws
-      = LawRange<static_cast<std::size_t>(first_sum), std::tuple_size_v<CellLaws<double>>>;
-
-  /// Call `function` with the CellModel of a law, which must be in the range.
-  template <typename Number, std::size_t i, std::size_t end, typename Function>
-  auto
-  with_cell_model(const LawRange<i, end> /*laws*/, const CellLaw law, const Function &function)
-  {
-    if constexpr (i + 1 < end)
-      if (law != static_cast<CellLaw>(i))
-        return with_cell_model<Number>(LawRange<i + 1, end>(), law, function);
-    return function(CellModel<std::tuple_element_t<i, CellLaws<Number>>>());
-  }
-
-  /// Call `function` with the CellModel of any law.
-  template <typename Number, typename Function>
+  /// Call `function` with the CellModel of a law, which is number i or a later one.
+  template <typename Number, std::size_t i = 0, typename Function>
   auto
   with_cell_model(const CellLaw law, const Function &function)
   {
-    return with_cell_model<Number>(AllLaws(), law, function);
+    if constexpr (i + 1 < std::tuple_size_v<CellLaws<Number>>)
+      if (law != static_cast<CellLaw>(i))
+        return with_cell_model<Number, i + 1>(law, function);
+    return function(CellModel<std::tuple_element_t<i, CellLaws<Number>>>());
   }
 
   inline ModelTraits
@@ -108,6 +83,17 @@ namespace Exemplar
       laws.push_back(static_cast<CellLaw>(i));
     return laws;
   }
+
+  template <typename... Cell>
+  constexpr std::size_t
+  greatest_history(const std::tuple<Cell...> * /*laws*/)
+  {
+    return std::max({ Cell::traits.n_history... });
+  }
+
+  /// Greatest number of history variables at a point, of all laws.
+  inline constexpr std::size_t max_history
+      = greatest_history(static_cast<CellLaws<double> *>(nullptr));
 
   /// The rotation R in a law: the closest to F, or I for a law without rotations.
   inline Matrix3<double>

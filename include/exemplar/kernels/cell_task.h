@@ -4,6 +4,7 @@
 
 #include <exemplar/kernels/cell_model.h>
 #include <exemplar/kernels/lanes.h>
+#include <exemplar/kernels/law_functions.h>
 
 #include <cstddef>
 #include <limits>
@@ -206,7 +207,7 @@ namespace Exemplar
   /// zero may be added to the value behind the three, because four numbers are written at once.
   struct TangentTask
   {
-    bool       convex    = false;   ///< whether to make_convex() cells, unless R K R^T is convex
+    bool       convex    = false;   ///< whether the tangent is never negative, instead of exact
     const int *positions = nullptr; ///< n_block_columns() a cell (all its points) from the first
                                     ///< batch on; -1: left out
     double *values = nullptr;

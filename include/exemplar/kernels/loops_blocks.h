@@ -25,27 +25,10 @@ namespace Exemplar::Loops
   template <typename Number, int n_nodes>
   using BlockColumns = double[n_block_columns(n_nodes)][4][LaneGroup<Number>::width];
 
-  /// V R times the responses of a cell to the changes e_k (x) g of R^T F, k = 0, 1, 2.
-  template <typename Cell, typename Number>
-  inline void
-  node_responses(const Cell            &cell,
-                 const Matrix3<Number> &VR,
-                 const Vector3<Number> &g,
-                 Matrix3<Number> (&response)[3])
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      Matrix3<Number> M{};
-      for (int l = 0; l < 3; ++l)
-        M[k][l] = g[l];
-      response[k] = VR * cell.response(M);
-    }
-  }
-
   /// Blocks d f_a / d x_b of the cells of a group.
-  template <typename Cell, typename Number, int n_nodes>
+  template <typename Number, int n_nodes>
   inline void
-  cell_blocks(const Cell                         &cell,
+  cell_blocks(const LawTangent<Number>           &tangent,
               const Matrix3<Number>              &R,
               const Tetrahedron<Number, n_nodes> &tet,
               BlockColumns<Number, n_nodes>      &columns)
@@ -58,8 +41,17 @@ namespace Exemplar::Loops
     // combined to those along axes j of space
     for (int b = 0; b < n_nodes; ++b)
     {
-      Matrix3<Number> response[3];
-      node_responses(cell, VR, tet.shape_gradient[b], response);
+      const Vector3<Number> &g = tet.shape_gradient[b];
+      Matrix3<Number>        response[3];
+      for (int k = 0; k < 3; ++k)
+      {
+        const Matrix3<Number>(&of)[3] = tangent.of[k];
+        Matrix3<Number> dP;
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            dP[i][j] = of[0][i][j] * g[0] + of[1][i][j] * g[1] + of[2][i][j] * g[2];
+        response[k] = VR * dP;
+      }
       for (int a = b; a < n_nodes; ++a)
       {
         Vector3<Number> force[3];

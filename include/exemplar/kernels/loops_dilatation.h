@@ -39,38 +39,11 @@ namespace Exemplar::Loops
       store(task.cells, group, cof[k / 3][k % 3], to.cofactors, 9, k);
   }
 
-  /// Add the pressure of its patch along cof F to a cell, Eq. (37).
-  template <typename Cell, typename Number>
-  [[gnu::always_inline]] inline void
-  add_volume_pressure(const CellTask &task, const LaneGroup<Number> &group, Cell &cell)
-  {
-    if constexpr (Cell::traits.has_volumetric_energy)
-      if (task.dilatation.volume.pressures != nullptr)
-        cell.add_volume_pressure(load(task.dilatation.volume.pressures, group, 1, 0));
-  }
-
-  /// Stress of a patch in its cells; zero where there is none.
+  /// Store what patches need of the strain and F of the cells of a group.
   template <typename Number>
-  struct PatchStress
-  {
-    bool   acts     = false;
-    Number pressure = Number(0.), scale = Number(0.);
-  };
-
-  template <typename Cell, typename Number>
-  inline PatchStress<Number>
-  patch_stress(const CellTask &task, const LaneGroup<Number> &group)
-  {
-    if constexpr (Cell::traits.trace_gradient_is_R)
-      if (task.dilatation.pressures != nullptr)
-        return { true, load(task.dilatation.pressures, group, 1, 0),
-                 load(task.dilatation.scales, group, 1, 0) };
-    return {};
-  }
-
-  template <typename Cell, typename Number>
   [[gnu::always_inline]] inline void
   store_dilatation(const CellTask          &task,
+                   const ModelTraits       &law,
                    const LaneGroup<Number> &group,
                    const Matrix3<Number>   &strain,
                    const Matrix3<Number>   &F)
@@ -78,9 +51,9 @@ namespace Exemplar::Loops
     Number       of_strain = trace(strain);
     const Number square    = contract(F, F);
     store(task.cells, group, square, task.dilatation.squares);
-    if constexpr (Cell::traits.has_volumetric_energy)
+    if (law.has_volumetric_energy)
       store_volume(task, group, strain, F);
-    if constexpr (Cell::traits.has_guard_of_patches())
+    if (law.has_guard_of_patches())
     {
       if (any(square > Number(min_stretched_square)))
         task.dilatation.flags[group.batch] |= long_cells;
@@ -90,25 +63,21 @@ namespace Exemplar::Loops
     store(task.cells, group, of_strain, task.dilatation.traces);
   }
 
-  template <typename Laws, typename Number, int n_nodes>
+  template <typename Number, int n_nodes>
   inline void
   dilatations(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
-    with_cell_model<Number>(
-        Laws(), task.cells.law,
-        [&](auto model)
+    const LawFunctions<Number> &law = law_functions<Number>(task.cells.law);
+    if (!law.traits->trace_gradient_is_R)
+      return;
+    for_each_group_of_law<Number>(
+        task.cells, begin, end,
+        [&](const LaneGroup<Number> &group)
         {
-          using Cell = typename decltype(model)::type;
-          if constexpr (Cell::traits.trace_gradient_is_R)
-            for_each_group_of_law<Number>(
-                task.cells, begin, end,
-                [&](const LaneGroup<Number> &group)
-                {
-                  const Matrix3<Number> F = deformation_gradient(
-                      task, group, load_tetrahedron<n_nodes>(task.cells, group));
-                  store_dilatation<Cell>(task, group,
-                                         Cell::strain_of(rotation<Cell>(task, group, F), F), F);
-                });
+          const Matrix3<Number> F
+              = deformation_gradient(task, group, load_tetrahedron<n_nodes>(task.cells, group));
+          store_dilatation(task, *law.traits, group,
+                           corotated_strain(rotation(task, law, group, F), F), F);
         });
   }
 
@@ -129,8 +98,8 @@ namespace Exemplar::Loops
            || is_stretched(dilatation.stretch, group);
   }
 
-  template <typename Cell, typename Number>
-  inline PatchCell<Number, Cell>
+  template <typename Number>
+  inline PatchCell<Number>
   patch_cell(const CellTask          &task,
              const LaneGroup<Number> &group,
              const Matrix3<Number>   &R,
@@ -143,33 +112,25 @@ namespace Exemplar::Loops
                 load(stretch.by_F, group, 1, 0),
                 load(stretch.stiffnesses, group, 1, 0),
                 { load(stretch.elasticity, group, 2, 0), load(stretch.elasticity, group, 2, 1) } };
-    Cell cell = make_cell<Cell>(task.cells, group, R, F);
-    cell.set_target(Matrix3<Number>{});
-    return PatchCell<Number, Cell>(cell, patch);
+    return PatchCell<Number>(R, F, task.cells.examples, patch);
   }
 
-  template <typename Laws, typename Number, int n_nodes>
+  template <typename Number, int n_nodes>
   inline void
   stretch_energies(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
-    with_cell_model<Number>(
-        Laws(), task.cells.law,
-        [&](auto model)
+    if (!law_functions<Number>(task.cells.law).traits->has_guard_of_patches())
+      return;
+    for_each_group_of_law<Number>(
+        task.cells, begin, end,
+        [&](const LaneGroup<Number> &group)
         {
-          using Cell = typename decltype(model)::type;
-          if constexpr (Cell::traits.has_guard_of_patches())
-            for_each_group_of_law<Number>(
-                task.cells, begin, end,
-                [&](const LaneGroup<Number> &group)
-                {
-                  if (!is_stretched(task.dilatation.stretch, group))
-                    return;
-                  const Matrix3<Number> F = deformation_gradient(
-                      task, group, load_tetrahedron<n_nodes>(task.cells, group));
-                  const auto cell
-                      = patch_cell<Cell>(task, group, load_rotation(task.cells, group), F);
-                  store(task.cells, group, cell.guard_energy(), task.dilatation.stretch.energies);
-                });
+          if (!is_stretched(task.dilatation.stretch, group))
+            return;
+          const Matrix3<Number> F
+              = deformation_gradient(task, group, load_tetrahedron<n_nodes>(task.cells, group));
+          const auto cell = patch_cell(task, group, load_rotation(task.cells, group), F);
+          store(task.cells, group, cell.guard_energy(), task.dilatation.stretch.energies);
         });
   }
 } // namespace Exemplar::Loops

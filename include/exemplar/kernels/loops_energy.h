@@ -2,8 +2,7 @@
 #ifndef exemplar_loops_energy_h
 #define exemplar_loops_energy_h
 
-#include <exemplar/kernels/loops_dilatation.h>
-#include <exemplar/kernels/loops_examples.h>
+#include <exemplar/kernels/loops_law.h>
 
 // The loops for energies, forces and their scales, and for the linear term of the weights.
 
@@ -137,149 +136,107 @@ namespace Exemplar::Loops
     }
   }
 
-  /// Add the guard of the stretch, where it acts. It starts anew from the positions in a function
-  /// apart from evaluate_group(), whose numbers would otherwise be kept out of registers for what
-  /// hardly any cell needs.
-  template <typename Cell, int n_nodes, typename Number>
-  [[gnu::noinline, gnu::cold]] void
-  add_stretch_guard(const CellTask            &task,
-                    const LaneGroup<Number>   &group,
-                    double                    *nodal_sums,
-                    LaneSums<Number, n_nodes> &sums)
+  /// Add the forces of R^T P to those of the nodes.
+  template <typename Number, int n_nodes>
+  inline void
+  add_turned_forces(const CellTask                     &task,
+                    const LaneGroup<Number>            &group,
+                    const Tetrahedron<Number, n_nodes> &tet,
+                    const Matrix3<Number>              &R,
+                    const Matrix3<Number>              &P,
+                    const Number                       &scale,
+                    double                             *nodal_sums)
   {
-    const auto            tet  = load_tetrahedron<n_nodes>(task.cells, group);
-    const Matrix3<Number> F    = deformation_gradient(task, group, tet);
-    const Matrix3<Number> R    = rotation<Cell>(task, group, F);
-    const Cell            cell = make_cell<Cell>(task.cells, group, R, F);
-    if (!cell.is_stretched())
-      return;
-    const StretchGuard<Number> guard  = cell.stretch();
-    const Number               energy = tet.volume * guard.energy();
-    sums.elastic += energy;
-    sums.energy += energy;
-    Matrix3<Number> RP = R * guard.force();
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        RP[i][j] *= tet.volume;
-    add_forces(task, group, tet, RP, Number(0.), nodal_sums);
+    add_forces(task, group, tet, times(tet.volume, R * P), scale, nodal_sums);
   }
 
-  /// Add the forces of patches beside their pressures, where there are any, in a function apart
-  /// like the guard.
-  template <typename Cell, int n_nodes, typename Number>
+  /// Add the guard of the stretch, where it acts, as it does in hardly any cell.
+  template <typename Number, int n_nodes>
   [[gnu::noinline, gnu::cold]] void
-  add_stress_of_special(const CellTask &task, const LaneGroup<Number> &group, double *nodal_sums)
+  add_stretch_guard(const CellTask                     &task,
+                    const LawFunctions<Number>         &law,
+                    const LaneGroup<Number>            &group,
+                    const Tetrahedron<Number, n_nodes> &tet,
+                    const LawInput<Number>             &in,
+                    double                             *nodal_sums,
+                    LaneSums<Number, n_nodes>          &sums)
+  {
+    const StretchGuard<Number> guard = law.stretch_guard(in);
+    if (!guard.acts())
+      return;
+    const Number energy = tet.volume * guard.energy();
+    sums.elastic += energy;
+    sums.energy += energy;
+    add_turned_forces(task, group, tet, in.R, guard.force(), Number(0.), nodal_sums);
+  }
+
+  /// Add the forces of patches beside their pressures, where there are any.
+  template <typename Number, int n_nodes>
+  [[gnu::noinline, gnu::cold]] void
+  add_stress_of_special(const CellTask                     &task,
+                        const LaneGroup<Number>            &group,
+                        const Tetrahedron<Number, n_nodes> &tet,
+                        const LawInput<Number>             &in,
+                        double                             *nodal_sums)
+  {
+    const Matrix3<Number> P
+        = patch_cell(task, group, in.R, in.F).force(transpose_times(in.R, in.F), in.pressure);
+    add_turned_forces(task, group, tet, in.R, P, Number(0.), nodal_sums);
+  }
+
+  template <typename Number, int n_nodes>
+  inline void
+  evaluate_group(const CellTask             &task,
+                 const LawFunctions<Number> &law,
+                 const LaneGroup<Number>    &group,
+                 LawInput<Number>           &in,
+                 LawValue<Number>           &value,
+                 double                     *nodal_sums,
+                 double                     *weight_sums,
+                 LaneSums<Number, n_nodes>  &sums)
   {
     const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
     const Matrix3<Number> F   = deformation_gradient(task, group, tet);
-    const Matrix3<Number> R   = load_rotation(task.cells, group);
-    Matrix3<Number>       RP
-        = R
-          * patch_cell<Cell>(task, group, R, F)
-                .force(transpose_times(R, F), load(task.dilatation.pressures, group, 1, 0));
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        RP[i][j] *= tet.volume;
-    add_forces(task, group, tet, RP, Number(0.), nodal_sums);
-  }
+    load_state(task, law, group, rotation(task, law, group, F), F, in);
+    load_drives(task, group, in);
+    law.evaluate(in, task.with_weight_sums, value);
 
-  template <typename Cell, int n_nodes, typename Number>
-  inline void
-  add_patch_stress(const CellTask &task, const LaneGroup<Number> &group, double *nodal_sums)
-  {
-    if constexpr (Cell::traits.has_guard_of_patches())
-      if (is_special(task.dilatation, group))
-        add_stress_of_special<Cell, n_nodes>(task, group, nodal_sums);
-  }
-
-  template <typename Cell, int n_nodes, typename Number>
-  inline void
-  evaluate_group(const CellTask            &task,
-                 const LaneGroup<Number>   &group,
-                 double                    *nodal_sums,
-                 double                    *weight_sums,
-                 LaneSums<Number, n_nodes> &sums)
-  {
-    const bool            has_examples = task.examples.n_weights > 0;
-    const auto            tet          = load_tetrahedron<n_nodes>(task.cells, group);
-    const Matrix3<Number> F            = deformation_gradient(task, group, tet);
-    const Matrix3<Number> R            = rotation<Cell>(task, group, F);
-    const auto            is_real      = tet.volume > Number(0.);
-
+    const auto   is_real = tet.volume > Number(0.);
     const Number det
         = task.cells.has_other_laws
               ? select(is_real, determinant(F), Number(std::numeric_limits<double>::max()))
               : determinant(F);
-    Cell         cell    = make_cell<Cell>(task.cells, group, R, F);
-    const Number density = cell.elastic_density();
-    const Number elastic = tet.volume * density;
-    Number       scale   = cell.elastic_scale();
-    add_volume_pressure(task, group, cell);
     sums.min_det = select(det >= sums.min_det, sums.min_det, det);
     sums.inverted.add(group, is_real & (det <= Number(0.)));
-    sums.elastic += elastic;
-    if constexpr (Cell::traits.n_history > 0)
-      sums.inelastic += tet.volume * cell.inelastic_density();
-
-    const PatchStress<Number> patch = patch_stress<Cell>(task, group);
-    Matrix3<Number>           P; // R^T P
-    Matrix3<Number>           D;
-    if (has_examples)
+    sums.elastic += tet.volume * value.elastic;
+    sums.inelastic += tet.volume * value.inelastic;
+    sums.energy += tet.volume * value.energy;
+    sums.damping += tet.volume * value.damping;
+    if (in.has_target || law.guards_without_target())
+      sums.guarded.add(group, is_real & value.is_guarded);
+    Number     scale_of_patch = Number(0.);
+    const bool is_in_patch    = in.has_pressure && law.traits->trace_gradient_is_R;
+    if (is_in_patch)
+      scale_of_patch = load(task.dilatation.scales, group, 1, 0);
+    if (in.has_target)
     {
-      D = target(task, group); // eta E(w)
-      scale += cell.scale_of(D);
-      sums.stress_square += tet.volume * scale * scale;
-      sums.stress_square += tet.volume * patch.scale * patch.scale;
-      sums.energy += tet.volume * cell.energy(D);
-      sums.guarded.add(group, is_real & cell.is_guarded());
+      sums.stress_square += tet.volume * value.stress_scale * value.stress_scale;
+      sums.stress_square += tet.volume * scale_of_patch * scale_of_patch;
       if (task.with_weight_sums)
-        add_weight_sums(task, group, -tet.volume, cell.weight_stress(D), weight_sums);
+        add_weight_sums(task, group, -tet.volume, value.weight_stress, weight_sums);
     }
-    else
+    add_turned_forces(task, group, tet, in.R, value.P,
+                      tet.volume * (value.force_scale + scale_of_patch), nodal_sums);
+    if (is_in_patch) // the guard of the stretch is the patch's, then
     {
-      // history variables have inelastic energy, and act like a target
-      if constexpr (Cell::traits.n_history > 0)
-      {
-        sums.energy += tet.volume * cell.energy();
-        sums.guarded.add(group, is_real & cell.is_guarded());
-      }
-      else
-        sums.energy += elastic;
-      if constexpr (Cell::traits.n_history == 0 && !Cell::Constants::is_isotropic)
-        sums.guarded.add(group, is_real & cell.is_guarded());
-      if (task.damping.factors == nullptr)
-        P = cell.elastic_force();
+      if (law.traits->has_guard_of_patches() && is_special(task.dilatation, group))
+        add_stress_of_special(task, group, tet, in, nodal_sums);
     }
-
-    if (task.damping.factors != nullptr)
-    {
-      const Number          s    = load(task.damping.factors, group, 1, 0);
-      const Matrix3<Number> past = load_strain(task.damping.strains, group, 1, 0);
-      sums.damping += s * tet.volume * cell.damping_density(past);
-      scale += s * (cell.elastic_scale() + cell.scale_of(past));
-      D = cell.damp(has_examples ? D : Matrix3<Number>{}, s, past);
-    }
-    if (has_examples || task.damping.factors != nullptr)
-    {
-      cell.set_target(D);
-      P = cell.force();
-    }
-    if (patch.acts)
-      for (int i = 0; i < 3; ++i)
-        P[i][i] += patch.pressure;
-    Matrix3<Number> RP = R * P;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        RP[i][j] *= tet.volume;
-    add_forces(task, group, tet, RP, tet.volume * (cell.force_factor() * scale + patch.scale),
-               nodal_sums);
-    if (patch.acts) // the guard of the stretch is the patch's, then
-      add_patch_stress<Cell, n_nodes>(task, group, nodal_sums);
-    else if (cell.may_be_stretched(density))
-      add_stretch_guard<Cell, n_nodes>(task, group, nodal_sums, sums);
+    else if (value.may_be_stretched)
+      add_stretch_guard(task, law, group, tet, in, nodal_sums, sums);
   }
 
-  template <typename Laws, typename Number, int n_nodes>
+  template <typename Number, int n_nodes>
   inline void
   evaluate(const CellTask   &task,
            const std::size_t begin,
@@ -288,46 +245,36 @@ namespace Exemplar::Loops
            double           *weight_sums,
            CellSums         &result)
   {
-    LaneSums<Number, n_nodes> sums;
-    with_cell_model<Number>(
-        Laws(), task.cells.law,
-        [&](auto model)
-        {
-          using Cell = typename decltype(model)::type;
-          for_each_group_of_law<Number>(
-              task.cells, begin, end,
-              [&](const LaneGroup<Number> &group)
-              { evaluate_group<Cell, n_nodes>(task, group, nodal_sums, weight_sums, sums); });
-        });
+    const LawFunctions<Number> &law = law_functions<Number>(task.cells.law);
+    LaneSums<Number, n_nodes>   sums;
+    LawInput<Number>            in;
+    LawValue<Number>            value;
+    for_each_group_of_law<Number>(
+        task.cells, begin, end,
+        [&](const LaneGroup<Number> &group)
+        { evaluate_group(task, law, group, in, value, nodal_sums, weight_sums, sums); });
     sums.add_to(result);
   }
 
-  template <typename Laws, typename Number, int n_nodes>
+  template <typename Number, int n_nodes>
   inline void
   weight_linear_term(const CellTask   &task,
                      const std::size_t begin,
                      const std::size_t end,
                      double           *weight_sums)
   {
-    with_cell_model<Number>(
-        Laws(), task.cells.law,
-        [&](auto model)
+    const LawFunctions<Number> &law = law_functions<Number>(task.cells.law);
+    LawInput<Number>            in;
+    for_each_group_of_law<Number>(
+        task.cells, begin, end,
+        [&](const LaneGroup<Number> &group)
         {
-          using Cell = typename decltype(model)::type;
-          for_each_group_of_law<Number>(
-              task.cells, begin, end,
-              [&](const LaneGroup<Number> &group)
-              {
-                const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
-                const Matrix3<Number> F   = deformation_gradient(task, group, tet);
-                const Cell            cell
-                    = make_cell<Cell>(task.cells, group, rotation<Cell>(task, group, F), F);
-                if constexpr (Cell::traits.trace_gradient_is_R)
-                  if (task.dilatation.traces != nullptr)
-                    store_dilatation<Cell>(task, group, cell.strain(), F);
-                add_weight_sums(task, group, tet.volume, cell.weight_stress(Matrix3<Number>{}),
-                                weight_sums);
-              });
+          const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
+          const Matrix3<Number> F   = deformation_gradient(task, group, tet);
+          load_state(task, law, group, rotation(task, law, group, F), F, in);
+          if (law.traits->trace_gradient_is_R && task.dilatation.traces != nullptr)
+            store_dilatation(task, *law.traits, group, corotated_strain(in.R, F), F);
+          add_weight_sums(task, group, tet.volume, law.weight_stress(in), weight_sums);
         });
   }
 } // namespace Exemplar::Loops

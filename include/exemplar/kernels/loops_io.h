@@ -3,6 +3,7 @@
 #define exemplar_loops_io_h
 
 #include <exemplar/kernels/cell_kernels.h>
+#include <exemplar/kernels/law_functions.h>
 #include <exemplar/kernels/loops_fours.h>
 #include <exemplar/kernels/symmetric.h>
 
@@ -117,16 +118,6 @@ namespace Exemplar::Loops
     }
   }
 
-  /// Load the constants of a law.
-  template <typename Constants, typename Number>
-  inline Constants
-  load_constants(const CellArrays &cells, const LaneGroup<Number> &group)
-  {
-    constexpr std::size_t n = Constants::n_numbers;
-    return Constants::from_numbers([&](const std::size_t k)
-                                   { return load(cells.constants, group, n, k); });
-  }
-
   /// Mask of the cells of a group that have the current law.
   template <typename Number>
   inline auto
@@ -165,21 +156,6 @@ namespace Exemplar::Loops
                              if (!cells.has_other_laws || any(of_law(cells, group)))
                                function(group);
                            });
-  }
-
-  /// A cell with rotation R and deformation gradient F, and the history variables of its law.
-  template <typename Cell, typename Number>
-  inline Cell
-  make_cell(const CellArrays        &cells,
-            const LaneGroup<Number> &group,
-            const Matrix3<Number>   &R,
-            const Matrix3<Number>   &F)
-  {
-    Cell cell(load_constants<typename Cell::Constants>(cells, group), R, F, cells.examples);
-    if constexpr (constexpr std::size_t n = Cell::traits.n_history; n > 0)
-      cell.remember([&](const std::size_t k) { return load(cells.history, group, n, k); },
-                    cells.step_size);
-    return cell;
   }
 
   template <typename Number>

@@ -116,49 +116,31 @@ namespace Exemplar::Loops
     }
   }
 
-  /// The response of the patches' terms in a cell, for cell_blocks().
-  template <typename Number, typename Cell>
-  struct PatchCellResponse
-  {
-    PatchCell<Number, Cell> cell;
-    Number                  pressure;
-    bool                    convex;
-
-    Matrix3<Number>
-    response(const Matrix3<Number> &M) const
-    {
-      return cell.response(M, pressure, convex);
-    }
-  };
-
-  template <typename Laws, typename Number, int n_nodes>
+  template <typename Number, int n_nodes>
   inline void
   add_patch_tangent(const CellTask    &task,
                     const TangentTask &tangent,
                     const std::size_t  begin,
                     const std::size_t  end)
   {
+    if (!law_functions<Number>(task.cells.law).traits->has_guard_of_patches())
+      return;
     alignas(64) BlockColumns<Number, n_nodes> columns = {};
-    with_cell_model<Number>(
-        Laws(), task.cells.law,
-        [&](auto model)
+    for_each_group_of_law<Number>(
+        task.cells, begin, end,
+        [&](const LaneGroup<Number> &group)
         {
-          using Cell = typename decltype(model)::type;
-          if constexpr (Cell::traits.has_guard_of_patches())
-            for_each_group_of_law<Number>(
-                task.cells, begin, end,
-                [&](const LaneGroup<Number> &group)
-                {
-                  if (!is_special(task.dilatation, group))
-                    return;
-                  const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
-                  const Matrix3<Number> R   = load_rotation(task.cells, group);
-                  const PatchCellResponse<Number, Cell> response
-                      = { patch_cell<Cell>(task, group, R, deformation_gradient(task, group, tet)),
-                          load(task.dilatation.pressures, group, 1, 0), tangent.convex };
-                  cell_blocks(response, R, tet, columns);
-                  add_blocks<Number, n_nodes>(task, tangent, begin, group, columns);
-                });
+          if (!is_special(task.dilatation, group))
+            return;
+          const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
+          const Matrix3<Number> R   = load_rotation(task.cells, group);
+          const auto   cell = patch_cell(task, group, R, deformation_gradient(task, group, tet));
+          const Number pressure = load(task.dilatation.pressures, group, 1, 0);
+          LawTangent<Number> of_point;
+          of_point.set([&](const Matrix3<Number> &M)
+                       { return cell.response(M, pressure, tangent.convex); });
+          cell_blocks(of_point, R, tet, columns);
+          add_blocks<Number, n_nodes>(task, tangent, begin, group, columns);
         });
   }
 } // namespace Exemplar::Loops

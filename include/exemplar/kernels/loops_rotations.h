@@ -9,11 +9,14 @@
 namespace Exemplar::Loops
 {
   /// R of the cells of a group, computed or loaded as the task says; I for laws without rotations.
-  template <typename Cell, typename Number>
+  template <typename Number>
   inline Matrix3<Number>
-  rotation(const CellTask &task, const LaneGroup<Number> &group, const Matrix3<Number> &F)
+  rotation(const CellTask             &task,
+           const LawFunctions<Number> &law,
+           const LaneGroup<Number>    &group,
+           const Matrix3<Number>      &F)
   {
-    if (!Cell::traits.has_rotations || task.rotation_use == RotationUse::keep)
+    if (!law.traits->has_rotations || task.rotation_use == RotationUse::keep)
       return load_rotation(task.cells, group);
     const Matrix3<Number> R = closest_rotation(F);
     if (task.rotation_use == RotationUse::update)
@@ -22,26 +25,21 @@ namespace Exemplar::Loops
     return R;
   }
 
-  template <typename Laws, typename Number, int n_nodes>
+  template <typename Number, int n_nodes>
   inline void
   update_rotations(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
+    const LawFunctions<Number> &law = law_functions<Number>(task.cells.law);
+    if (!law.traits->has_rotations)
+      return;
     CellTask updating     = task;
     updating.rotation_use = RotationUse::update;
-    with_cell_model<Number>(
-        Laws(), task.cells.law,
-        [&](auto model)
+    for_each_group_of_law<Number>(
+        task.cells, begin, end,
+        [&](const LaneGroup<Number> &group)
         {
-          using Cell = typename decltype(model)::type;
-          if constexpr (Cell::traits.has_rotations)
-            for_each_group_of_law<Number>(
-                task.cells, begin, end,
-                [&](const LaneGroup<Number> &group)
-                {
-                  rotation<Cell>(updating, group,
-                                 deformation_gradient(
-                                     task, group, load_tetrahedron<n_nodes>(task.cells, group)));
-                });
+          rotation(updating, law, group,
+                   deformation_gradient(task, group, load_tetrahedron<n_nodes>(task.cells, group)));
         });
   }
 

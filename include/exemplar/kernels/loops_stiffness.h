@@ -4,7 +4,7 @@
 
 #include <exemplar/kernels/loops_blocks.h>
 
-// The loop that adds R K R^T, Eq. (8). The stiffness of an isotropic material is rotated by
+// The loop that adds R K R^T, Eq. (8), of isotropic materials, whose stiffness is rotated by
 // rotating the shape gradients of a cell.
 
 namespace Exemplar::Loops
@@ -20,9 +20,10 @@ namespace Exemplar::Loops
     alignas(64) double diagonal[n][n][LaneGroup<Number>::width]; ///< V mu g_a.g_b, a >= b
   };
 
-  template <typename Constants, typename Number, int n>
+  template <typename Number, int n>
   inline void
   find_rotated_stiffness(const CellTask              &task,
+                         const std::size_t            n_constants,
                          const LaneGroup<Number>     &group,
                          RotatedStiffness<Number, n> &K)
   {
@@ -31,8 +32,11 @@ namespace Exemplar::Loops
     Number                factor = tet.volume;
     if (task.damping.factors != nullptr)
       factor *= Number(1.) + load(task.damping.factors, group, 1, 0);
-    const CellMaterial<Number> C = load_constants<Constants>(task.cells, group).scaled(factor);
-    Vector3<Number>            g[n];
+    const CellMaterial<Number> C
+        = CellMaterial<Number>{ load(task.cells.constants, group, n_constants, 0),
+                                load(task.cells.constants, group, n_constants, 1) }
+              .scaled(factor);
+    Vector3<Number> g[n];
     rotate_gradients(tet, R, g);
     for (int a = 0; a < n; ++a)
     {
@@ -102,48 +106,14 @@ namespace Exemplar::Loops
         g[l] = Four{ K.g[a][0][l], K.g[a][1][l], K.g[a][2][l], 0. };
   }
 
-  /// The response of R K R^T for any C: the rotation stays fixed.
-  template <typename Constants, typename Number>
-  struct FixedResponse
-  {
-    Constants C;
-
-    Matrix3<Number>
-    response(const Matrix3<Number> &M) const
-    {
-      return stress(C, symmetric_part(M));
-    }
-  };
-
-  /// Add R K R^T of cells with anisotropic C.
-  template <typename Constants, typename Number, int n_nodes>
+  /// Add R K R^T of a law with `n_constants` constants, the first of which are Lamé's.
+  template <typename Number, int n>
   inline void
-  add_anisotropic_stiffness_of(const CellTask    &task,
-                               const TangentTask &tangent,
-                               const std::size_t  begin,
-                               const std::size_t  end)
-  {
-    alignas(64) BlockColumns<Number, n_nodes> columns = {};
-    for_each_group_of_law<Number>(
-        task.cells, begin, end,
-        [&](const LaneGroup<Number> &group)
-        {
-          Number factor = Number(1.);
-          if (task.damping.factors != nullptr)
-            factor += load(task.damping.factors, group, 1, 0);
-          const auto C = load_constants<Constants>(task.cells, group).scaled(factor);
-          cell_blocks(FixedResponse<Constants, Number>{ C }, load_rotation(task.cells, group),
-                      load_tetrahedron<n_nodes>(task.cells, group), columns);
-          add_blocks<Number, n_nodes>(task, tangent, begin, group, columns);
-        });
-  }
-
-  template <typename Constants, typename Number, int n>
-  inline void
-  add_isotropic_stiffness_of(const CellTask    &task,
-                             const TangentTask &tangent,
-                             const std::size_t  begin,
-                             const std::size_t  end)
+  add_isotropic_stiffness(const CellTask    &task,
+                          const std::size_t  n_constants,
+                          const TangentTask &tangent,
+                          const std::size_t  begin,
+                          const std::size_t  end)
   {
     // points of one cell in one register are added together
     constexpr std::size_t at_once  = std::min<std::size_t>(4, LaneGroup<Number>::width);
@@ -154,7 +124,7 @@ namespace Exemplar::Loops
         task.cells, begin, end,
         [&](const LaneGroup<Number> &group)
         {
-          find_rotated_stiffness<Constants>(task, group, K);
+          find_rotated_stiffness(task, n_constants, group, K);
           for (std::size_t first = 0; first < LaneGroup<Number>::width; first += at_once)
           {
             Four g[n][4]; // gradients by node a and cell
@@ -173,25 +143,6 @@ namespace Exemplar::Loops
                             tangent.values);
             }
           }
-        });
-  }
-
-  template <typename Laws, typename Number, int n>
-  inline void
-  add_rotated_stiffness(const CellTask    &task,
-                        const TangentTask &tangent,
-                        const std::size_t  begin,
-                        const std::size_t  end)
-  {
-    with_cell_model<Number>(
-        Laws(), task.cells.law,
-        [&](auto model)
-        {
-          using Constants = typename decltype(model)::type::Constants;
-          if constexpr (Constants::is_isotropic)
-            add_isotropic_stiffness_of<Constants, Number, n>(task, tangent, begin, end);
-          else
-            add_anisotropic_stiffness_of<Constants, Number, n>(task, tangent, begin, end);
         });
   }
 } // namespace Exemplar::Loops

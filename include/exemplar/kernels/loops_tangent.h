@@ -2,89 +2,126 @@
 #ifndef exemplar_loops_tangent_h
 #define exemplar_loops_tangent_h
 
-#include <exemplar/kernels/loops_examples.h>
+#include <exemplar/kernels/loops_law.h>
 #include <exemplar/kernels/loops_stiffness.h>
 
-// The tangents of laws that are not R K R^T, Eqs. (18) and (19), and the update of history
+#include <array>
+
+// The loops for tangents, Eqs. (8), (18) and (19), and the coupling columns G of Eqs. (9) and (40):
+// the decrease of the forces for a unit of each example's weight. Then the update of history
 // variables.
 
 namespace Exemplar::Loops
 {
-  /// The cell of each lane with its material, deformation and target strain, damping and the
-  /// patch's pressure included.
-  template <typename Cell, typename Number, int n_nodes>
-  inline Cell
-  driven_cell(const CellTask                     &task,
-              const TangentTask                  &tangent,
+  /// The cells of a group as the tangent of a law needs them: with the stored rotations.
+  template <typename Number, int n_nodes>
+  inline void
+  load_driven(const CellTask                     &task,
+              const LawFunctions<Number>         &law,
               const LaneGroup<Number>            &group,
               const Tetrahedron<Number, n_nodes> &tet,
-              const Matrix3<Number>              &R)
+              LawInput<Number>                   &in)
   {
-    Cell cell = make_cell<Cell>(task.cells, group, R, deformation_gradient(task, group, tet));
-    Matrix3<Number> D = target(task, group);
-    if (task.damping.factors != nullptr)
-    {
-      D = cell.damp(D, load(task.damping.factors, group, 1, 0),
-                    load_strain(task.damping.strains, group, 1, 0));
-    }
-    cell.set_target(D);
-    if constexpr (Cell::traits.trace_gradient_is_R)
-      if (task.dilatation.pressures != nullptr)
-        cell.add_pressure(load(task.dilatation.pressures, group, 1, 0));
-    add_volume_pressure(task, group, cell);
-    if constexpr (!Cell::traits.convex_is_rotated)
-      if (tangent.convex)
-        cell.make_convex();
-    return cell;
+    load_state(task, law, group, load_rotation(task.cells, group),
+               deformation_gradient(task, group, tet), in);
+    load_drives(task, group, in);
   }
 
-  template <typename Laws, typename Number, int n_nodes>
+  template <typename Number, int n_nodes>
   inline void
   add_tangent(const CellTask    &task,
               const TangentTask &tangent,
               const std::size_t  begin,
               const std::size_t  end)
   {
+    const LawFunctions<Number> &law = law_functions<Number>(task.cells.law);
+    if (law.is_isotropic && law.is_rotated(tangent.convex))
+      return add_isotropic_stiffness<Number, n_nodes>(task, law.n_constants, tangent, begin, end);
     alignas(64) BlockColumns<Number, n_nodes> columns = {};
-    with_cell_model<Number>(
-        Laws(), task.cells.law,
-        [&](auto model)
+    LawInput<Number>                          in;
+    LawTangent<Number>                        of_point;
+    for_each_group_of_law<Number>(task.cells, begin, end,
+                                  [&](const LaneGroup<Number> &group)
+                                  {
+                                    const auto tet = load_tetrahedron<n_nodes>(task.cells, group);
+                                    load_driven(task, law, group, tet, in);
+                                    law.tangent(in, tangent.convex, of_point);
+                                    cell_blocks(of_point, in.R, tet, columns);
+                                    add_blocks<Number, n_nodes>(task, tangent, begin, group,
+                                                                columns);
+                                  });
+  }
+
+  /// Store the nodal forces V R dP g_a of example i for each cell.
+  template <typename Number, int n_nodes>
+  inline void
+  store_coupling(const CellArrays                   &cells,
+                 const LaneGroup<Number>            &group,
+                 const Tetrahedron<Number, n_nodes> &tet,
+                 const Matrix3<Number>              &R,
+                 const Matrix3<Number>              &dP,
+                 const std::size_t                   i,
+                 double                             *forces)
+  {
+    Vector3<Number> force[n_nodes];
+    frozen_forces(tet, R, dP, force);
+    for (int a = 0; a < n_nodes; ++a)
+      for (int c = 0; c < 3; ++c)
+      {
+        double *to = forces + (3 * (n_nodes * i + a) + c) * batch_size + group.lane;
+        Lanes<Number>::store(cells.has_other_laws ? select(of_law(cells, group), force[a][c],
+                                                           Lanes<Number>::load(to))
+                                                  : force[a][c],
+                             to);
+      }
+  }
+
+  template <typename Number, int n_nodes>
+  inline void
+  coupling(const CellTask &task, const bool convex, const std::size_t batch, double *forces)
+  {
+    constexpr std::size_t                at_once = 8; // examples for which a law's state is made
+    const LawFunctions<Number>          &law     = law_functions<Number>(task.cells.law);
+    LawInput<Number>                     in;
+    std::array<Matrix3<Number>, at_once> E, dP;
+    for_each_group_of_law<Number>(
+        task.cells, batch, batch + 1,
+        [&](const LaneGroup<Number> &group)
         {
-          using Cell = typename decltype(model)::type;
-          if constexpr (!Cell::traits.exact_is_rotated)
-            for_each_group_of_law<Number>(
-                task.cells, begin, end,
-                [&](const LaneGroup<Number> &group)
-                {
-                  const auto tet = load_tetrahedron<n_nodes>(task.cells, group);
-                  const auto R   = load_rotation(task.cells, group);
-                  cell_blocks(driven_cell<Cell>(task, tangent, group, tet, R), R, tet, columns);
-                  add_blocks<Number, n_nodes>(task, tangent, begin, group, columns);
-                });
+          const auto tet = load_tetrahedron<n_nodes>(task.cells, group);
+          load_driven(task, law, group, tet, in);
+          for (std::size_t first = 0; first < task.examples.n; first += at_once)
+          {
+            const std::size_t n = std::min<std::size_t>(at_once, task.examples.n - first);
+            for (std::size_t i = 0; i < n; ++i)
+              E[i] = load_strain(task.examples.strains, group, task.examples.n, first + i);
+            law.columns(in, convex, n, E.data(), dP.data());
+            for (std::size_t i = 0; i < n; ++i)
+              store_coupling(task.cells, group, tet, in.R, dP[i], first + i, forces);
+          }
         });
   }
 
-  template <typename Laws, typename Number, int n_nodes>
+  template <typename Number, int n_nodes>
   inline void
   advance_history(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
-    with_cell_model<Number>(
-        Laws(), task.cells.law,
-        [&](auto model)
+    const LawFunctions<Number> &law = law_functions<Number>(task.cells.law);
+    const std::size_t           n   = law.traits->n_history;
+    if (n == 0)
+      return;
+    LawInput<Number>                in;
+    std::array<Number, max_history> history;
+    for_each_group_of_law<Number>(
+        task.cells, begin, end,
+        [&](const LaneGroup<Number> &group)
         {
-          using Cell = typename decltype(model)::type;
-          if constexpr (constexpr std::size_t n = Cell::traits.n_history; n > 0)
-            for_each_group_of_law<Number>(
-                task.cells, begin, end,
-                [&](const LaneGroup<Number> &group)
-                {
-                  const Cell cell = make_cell<Cell>(
-                      task.cells, group, load_rotation(task.cells, group),
-                      deformation_gradient(task, group,
-                                           load_tetrahedron<n_nodes>(task.cells, group)));
-                  for (std::size_t k = 0; k < n; ++k)
-                    store(task.cells, group, cell.new_history(k), task.cells.history, n, k);
-                });
+          load_state(
+              task, law, group, load_rotation(task.cells, group),
+              deformation_gradient(task, group, load_tetrahedron<n_nodes>(task.cells, group)), in);
+          law.advance(in, history.data());
+          for (std::size_t k = 0; k < n; ++k)
+            store(task.cells, group, history[k], task.cells.history, n, k);
         });
   }
 } // namespace Exemplar::Loops

@@ -75,6 +75,17 @@ namespace Exemplar
     return C;
   }
 
+  /// factor A.
+  template <typename Number>
+  [[gnu::always_inline]] inline Matrix3<Number>
+  times(const Number &factor, Matrix3<Number> A)
+  {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        A[i][j] *= factor;
+    return A;
+  }
+
   /// a A + b B.
   template <typename Number>
   [[gnu::always_inline]] inline Matrix3<Number>

@@ -112,14 +112,18 @@ namespace Exemplar
     CellMaterial<Number> elasticity; ///< elasticity of the guard Gamma
   };
 
-  /// Terms of patches in the stress of a cell, beside their pressure, and in its tangent. The cell
-  /// has no target.
-  template <typename Number, typename Cell = CorotationalCell<Number>>
+  /// Terms of patches in the stress of a cell, beside their pressure, and in its tangent. They depend
+  /// on its deformation, not on its law.
+  template <typename Number>
   class PatchCell
   {
   public:
-    PatchCell(const Cell &cell, const StretchedPatch<Number> &patch)
-        : cell(cell), thin(cell.stretch_factor(), cell.product_of_sums()),
+    PatchCell(const Matrix3<Number>        &rotation,
+              const Matrix3<Number>        &deformation_gradient,
+              const ExampleConstants       &examples,
+              const StretchedPatch<Number> &patch)
+        : cell(turning_cell(rotation, deformation_gradient, examples)),
+          thin(cell.stretch_factor(), cell.product_of_sums()),
           guard(patch.elasticity, cell.stretch_factor(), cell.product_of_sums()), patch(patch)
     {
     }
@@ -134,7 +138,7 @@ namespace Exemplar
     Number
     guard_energy() const
     {
-      return guard.acts() ? guard.energy() : Number(0.);
+      return guard.energy_or_zero();
     }
 
     /// R^T dG/dF [Pa].
@@ -176,10 +180,22 @@ namespace Exemplar
     }
 
   private:
-    Cell                   cell;
-    ThinTrace<Number>      thin;
-    StretchGuard<Number>   guard;
-    StretchedPatch<Number> patch;
+    /// A cell without elasticity, which knows how its rotation follows F.
+    static CorotationalCell<Number>
+    turning_cell(const Matrix3<Number>  &rotation,
+                 const Matrix3<Number>  &deformation_gradient,
+                 const ExampleConstants &examples)
+    {
+      CorotationalCell<Number> cell({ Number(0.), Number(0.) }, rotation, deformation_gradient,
+                                    examples);
+      cell.set_target(Matrix3<Number>{});
+      return cell;
+    }
+
+    CorotationalCell<Number> cell;
+    ThinTrace<Number>        thin;
+    StretchGuard<Number>     guard;
+    StretchedPatch<Number>   patch;
   };
 } // namespace Exemplar
 

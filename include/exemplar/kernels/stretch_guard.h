@@ -155,6 +155,13 @@ namespace Exemplar
       return q[0] * r.value;
     }
 
+    /// Gamma [Pa]; 0 where it does not act.
+    Number
+    energy_or_zero() const
+    {
+      return acts() ? energy() : Number(0.);
+    }
+
     /// R^T dGamma/dF, where the guard acts.
     Matrix3<Number>
     force() const

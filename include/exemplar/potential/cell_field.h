@@ -238,6 +238,11 @@ namespace Exemplar
       return kernels;
     }
 
+    /// What a point with deformation gradient F and the last rotation gives its law, with its damping
+    /// and the pressures of its patch, but without a target.
+    LawInput<double>
+    law_input(unsigned int point, const Matrix3<double> &F) const;
+
     /// Laws, constants and history of the points.
     CellBatches &
     get_batches()
@@ -272,7 +277,7 @@ namespace Exemplar
     /// Run a loop of the kernels that leaves no sums.
     void
     for_each_law_in_stripes(const CellTask &task,
-                            void (*LawKernels::*loop)(const CellTask &, std::size_t, std::size_t));
+                            void (*CellKernels::*loop)(const CellTask &, std::size_t, std::size_t));
 
     const FESpace                &fe_space;
     const CellKernels            &kernels;

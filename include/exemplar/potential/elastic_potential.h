@@ -188,9 +188,7 @@ namespace Exemplar
 
     template <Element element>
     void
-    assemble_coupling(const CellTask      &task,
-                      const TangentTask   &tangent,
-                      std::vector<double> &columns);
+    assemble_coupling(const CellTask &task, bool convex, std::vector<double> &columns);
 
     /// The part of the cells of this process.
     void

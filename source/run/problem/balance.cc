@@ -55,20 +55,11 @@ namespace Exemplar
     Matrix3<double>
     stress_at_rest(const CellBatches &batches, const unsigned int point, const Matrix3<double> &M)
     {
-      const auto I = identity_matrix<double>();
-      return batches.with_cell(point, I, I,
-                               [&](auto state) -> Matrix3<double>
-                               {
-                                 using Cell = std::decay_t<decltype(state)>;
-                                 if constexpr (Cell::traits.exact_is_rotated)
-                                   return stress(batches.constants<typename Cell::Constants>(point),
-                                                 symmetric_part(M));
-                                 else
-                                 {
-                                   state.set_target(Matrix3<double>{});
-                                   return symmetric_part(state.response(M));
-                                 }
-                               });
+      const auto         I = identity_matrix<double>();
+      LawTangent<double> tangent;
+      law_functions<double>(batches.law(point))
+          .tangent(batches.law_input(point, I, I), false, tangent);
+      return symmetric_part(tangent.response(M));
     }
 
     /// The body at rest, without loads and inertia, whose linear stiffness answers to forces.

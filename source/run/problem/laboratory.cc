@@ -263,25 +263,18 @@ namespace Exemplar
     const CellField &cells = elastic.get_field();
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
-      const unsigned int    cell = fe_space.cell_of(point);
-      const double          part = fe_space.volume(point) / fe_space.cell_volume(cell);
-      const Matrix3<double> R    = cells.rotation(point);
-      const Matrix3<double> F    = fe_space.deformation_gradient(point, at.positions);
-      cells.get_batches().with_cell(
-          point, R, F,
-          [&](auto state)
-          {
-            using Cell = std::decay_t<decltype(state)>;
-            if constexpr (Cell::traits.has_volumetric_energy)
-              state.add_volume_pressure(cells.get_dilatation().volume.pressure(point));
-            Matrix3<double> T
-                = state.stress_towards(problem.examples.poses.strain(point, at.weights));
-            for (int i = 0; i < 3; ++i)
-              T[i][i] += cells.get_dilatation().pressure(point);
-            const Matrix3<double> turned = R * transposed(R * T); // T is symmetric
-            means.strains[cell]          = combine(1., means.strains[cell], part, state.strain());
-            means.stresses[cell]         = combine(1., means.stresses[cell], part, turned);
-          });
+      const unsigned int cell = fe_space.cell_of(point);
+      const double       part = fe_space.volume(point) / fe_space.cell_volume(cell);
+      const CellLaw      law  = cells.get_batches().law(point);
+      LawInput<double>   in
+          = cells.law_input(point, fe_space.deformation_gradient(point, at.positions));
+      in.target         = problem.examples.poses.strain(point, at.weights);
+      Matrix3<double> T = law_functions<double>(law).stress(in);
+      for (int i = 0; i < 3; ++i)
+        T[i][i] += in.pressure;
+      const Matrix3<double> turned = in.R * transposed(in.R * T); // T is symmetric
+      means.strains[cell]  = combine(1., means.strains[cell], part, model_strain(law, in.R, in.F));
+      means.stresses[cell] = combine(1., means.stresses[cell], part, turned);
     }
     return means;
   }

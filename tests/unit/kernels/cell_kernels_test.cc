@@ -65,25 +65,25 @@ namespace Exemplar::Testing
 
         nodal_sums.resize(4 * n_nodes);
         weight_sums.resize(batch_size * weights.size());
-        kernels.of(law).evaluate(task, 0, n_batches, nodal_sums.data(), weight_sums.data(), sums);
+        kernels.evaluate(task, 0, n_batches, nodal_sums.data(), weight_sums.data(), sums);
         weight_linear_term.resize(weight_sums.size());
-        kernels.of(law).weight_linear_term(task, 0, n_batches, weight_linear_term.data());
+        kernels.weight_linear_term(task, 0, n_batches, weight_linear_term.data());
         rotations.assign(task.cells.rotations, task.cells.rotations + 9 * n);
 
         std::vector<int> matrix_positions(n_block_columns(nodes_per_cell(element))
                                           * body.fe_space.n_cells());
         for (std::size_t i = 0; i < matrix_positions.size(); ++i)
           matrix_positions[i] = static_cast<int>(3 * i); // each cell's matrix by itself
-        for (std::vector<double> *matrix : { &rotated, &exact })
-          matrix->assign(3 * matrix_positions.size() + SymmetricPattern::padding, 0.);
-        kernels.of(law).add_rotated_stiffness(
-            task, { false, matrix_positions.data(), rotated.data() }, 0, n_batches);
-        const bool is_rotated = traits_of(law).exact_is_rotated;
-        if (!is_rotated)
-          kernels.of(law).add_tangent(task, { true, matrix_positions.data(), exact.data() }, 0,
-                                      n_batches);
-        coupling.resize(3 * nodes_per_cell(element) * batch_size * task.examples.n);
-        kernels.of(law).coupling(task, {}, is_rotated, 1, coupling.data());
+        for (const bool is_convex : { false, true })
+        {
+          std::vector<double> &matrix = is_convex ? convex : exact;
+          matrix.assign(3 * matrix_positions.size() + SymmetricPattern::padding, 0.);
+          kernels.add_tangent(task, { is_convex, matrix_positions.data(), matrix.data() }, 0,
+                              n_batches);
+          auto &columns = is_convex ? convex_coupling : coupling;
+          columns.resize(3 * nodes_per_cell(element) * batch_size * task.examples.n);
+          kernels.coupling(task, is_convex, 1, columns.data());
+        }
 
         dealii::AlignedVector<float> rotation_sums(12 * n_nodes);
         kernels.add_rotations(task, 0, n_batches, rotation_sums.data());
@@ -91,10 +91,11 @@ namespace Exemplar::Testing
         kernels.closest_rotations(n_nodes, rotation_sums.data(), node_rotations.data());
       }
 
-      dealii::AlignedVector<double> nodal_sums, weight_sums, weight_linear_term, coupling;
-      std::vector<double>           rotations, rotated, exact;
-      std::vector<float>            node_rotations;
-      CellSums                      sums;
+      dealii::AlignedVector<double> nodal_sums, weight_sums, weight_linear_term, coupling,
+          convex_coupling;
+      std::vector<double> rotations, convex, exact;
+      std::vector<float>  node_rotations;
+      CellSums            sums;
     };
 
     template <typename Vector>
@@ -137,9 +138,10 @@ namespace Exemplar::Testing
         EXPECT_LT(difference(loops.weight_sums, scalar.weight_sums), 1e3 * tolerance);
         EXPECT_LT(difference(loops.weight_linear_term, scalar.weight_linear_term), tolerance);
         EXPECT_LT(difference(loops.rotations, scalar.rotations), tolerance);
-        EXPECT_LT(difference(loops.rotated, scalar.rotated), tolerance);
+        EXPECT_LT(difference(loops.convex, scalar.convex), tolerance);
         EXPECT_LT(difference(loops.exact, scalar.exact), tolerance);
         EXPECT_LT(difference(loops.coupling, scalar.coupling), tolerance);
+        EXPECT_LT(difference(loops.convex_coupling, scalar.convex_coupling), tolerance);
         EXPECT_LT(difference(loops.node_rotations, scalar.node_rotations), 1e-5);
       }
     }

@@ -46,14 +46,13 @@ namespace Exemplar::Testing
         task.positions              = positions.data();
         task.rotation_use           = RotationUse::update;
         const std::size_t n_batches = task.cells.n_batches();
-        const LawKernels &loops     = kernels.of(task.cells.law);
-        loops.dilatations(task, 0, n_batches);
+        kernels.dilatations(task, 0, n_batches);
         EXPECT_TRUE(field.has(thin_cells));
-        loops.stretch_energies(task, 0, n_batches);
+        kernels.stretch_energies(task, 0, n_batches);
         nodal_sums.resize(4 * n_nodes);
         CellSums sums;
         task.rotation_use = RotationUse::keep;
-        loops.evaluate(task, 0, n_batches, nodal_sums.data(), nullptr, sums);
+        kernels.evaluate(task, 0, n_batches, nodal_sums.data(), nullptr, sums);
         traces.assign(field.traces.data(), field.traces.data() + n);
         energies.assign(field.stretch.energies.data(), field.stretch.energies.data() + n);
 
@@ -62,8 +61,8 @@ namespace Exemplar::Testing
           to[i] = static_cast<int>(3 * i); // each cell's matrix by itself
         for (std::vector<double> *matrix : { &exact, &convex })
           matrix->assign(3 * to.size() + SymmetricPattern::padding, 0.);
-        loops.add_patch_tangent(task, { false, to.data(), exact.data() }, 0, n_batches);
-        loops.add_patch_tangent(task, { true, to.data(), convex.data() }, 0, n_batches);
+        kernels.add_patch_tangent(task, { false, to.data(), exact.data() }, 0, n_batches);
+        kernels.add_patch_tangent(task, { true, to.data(), convex.data() }, 0, n_batches);
       }
 
       std::vector<double>           traces, energies, exact, convex;

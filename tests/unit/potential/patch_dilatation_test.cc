@@ -71,9 +71,12 @@ namespace Exemplar::Testing
         std::vector<bool> guarded;
         for (unsigned int point = 0; point < body.fe_space.n_points(); ++point)
         {
-          const Matrix3<double> F = body.fe_space.deformation_gradient(point, past);
-          guarded.push_back(elastic.get_field().get_batches().with_cell(
-              point, closest_rotation(F), F, [](const auto &cell) { return cell.is_guarded(); }));
+          const Matrix3<double> F       = body.fe_space.deformation_gradient(point, past);
+          const CellBatches    &batches = elastic.get_field().get_batches();
+          LawValue<double>      value;
+          law_functions<double>(batches.law(point))
+              .evaluate(batches.law_input(point, closest_rotation(F), F), false, value);
+          guarded.push_back(value.is_guarded);
         }
         return guarded;
       }

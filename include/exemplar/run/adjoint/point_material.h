@@ -55,16 +55,6 @@ namespace Exemplar
     return A;
   }
 
-  template <typename Number>
-  Matrix3<Number>
-  times(const Number &factor, Matrix3<Number> A)
-  {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        A[i][j] *= factor;
-    return A;
-  }
-
   /// C^-1:T, by the formula of Sherman and Morrison.
   template <typename Number>
   Matrix3<Number>
