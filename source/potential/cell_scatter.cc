@@ -71,12 +71,6 @@ namespace Exemplar
                            const FreeDofs         &free_dofs)
       : fe_space(fe_space), pattern(pattern), free_dofs(free_dofs)
   {
-    reinit();
-  }
-
-  void
-  CellScatter::reinit()
-  {
     block_positions.assign(n_block_columns(nodes_per_cell(fe_space.element())) * fe_space.n_cells(),
                            FreeDofs::held);
     mixed.clear();

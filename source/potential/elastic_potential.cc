@@ -54,15 +54,6 @@ namespace Exemplar
       result.stress_square    = sums.stress_square;
     }
 
-    std::unique_ptr<PatchDilatation>
-    make_patches(const ElasticParts &parts)
-    {
-      if (parts.patches.size() == 0)
-        return nullptr;
-      return std::make_unique<PatchDilatation>(parts.patches, parts.examples, parts.fe_space,
-                                               parts.material);
-    }
-
     CellRounding
     estimate_rounding(const ElasticParts &parts)
     {
@@ -94,49 +85,50 @@ namespace Exemplar
     }
   } // namespace
 
-  ElasticPotential::ElasticPotential(const ElasticParts &parts, const SymmetricPattern &pattern)
-      : parts(parts), pattern(pattern), cells(parts.laws,
-                                              parts.examples.constants(),
-                                              parts.fe_space,
-                                              parts.cell_material,
-                                              parts.n_threads),
-        scatter(parts.fe_space, pattern, parts.free_dofs), patches(make_patches(parts)),
+  ElasticPotential::ElasticPotential(const ElasticParts &parts)
+      : parts(parts), cells(parts.laws,
+                            parts.examples.constants(),
+                            parts.fe_space,
+                            parts.cell_material,
+                            parts.n_threads),
         rounding(estimate_rounding(parts))
   {
-    if (patches != nullptr)
-      patches->attach(pattern, parts.free_dofs, cells);
+    if (parts.patches.size() > 0)
+      blocks.push_back(std::make_unique<PatchDilatation>(parts.patches, parts.examples,
+                                                         parts.fe_space, parts.material));
   }
 
   NodePairs
-  ElasticPotential::couplings(const ElasticParts &parts, const bool in_parts)
+  ElasticPotential::couplings(const bool in_parts) const
   {
-    const bool are_there = parts.patches.size() > 0
-                           && !(in_parts && PatchDilatation::couples_by_products(parts.fe_space));
-    return are_there ? PatchScatter::couplings(parts.patches, parts.fe_space) : NodePairs();
+    return in_parts && couples_by_products()
+               ? NodePairs()
+               : PatchScatter::couplings(parts.patches, parts.fe_space);
   }
 
   void
-  ElasticPotential::begin_step(const double s, const std::vector<WeightedPositions> &history)
+  ElasticPotential::attach(const SymmetricPattern &new_pattern)
   {
-    cells.set_damping(s, history);
-    if (patches != nullptr)
-      patches->begin_step();
+    pattern = &new_pattern;
+    scatter.emplace(parts.fe_space, new_pattern, parts.free_dofs);
+    for (const auto &block : blocks)
+      block->attach(new_pattern, parts.free_dofs, cells);
+  }
+
+  void
+  ElasticPotential::begin_step(const double s, const std::vector<WeightedPositions> &past)
+  {
+    cells.set_damping(s, past);
+    for (const auto &block : blocks)
+      block->begin_step();
   }
 
   void
   ElasticPotential::leave_step()
   {
     cells.set_damping(0., {});
-    if (patches != nullptr)
-      patches->leave_step();
-  }
-
-  void
-  ElasticPotential::follow_pattern()
-  {
-    scatter.reinit();
-    if (patches != nullptr)
-      patches->attach(pattern, parts.free_dofs, cells);
+    for (const auto &block : blocks)
+      block->leave_step();
   }
 
   void
@@ -170,11 +162,14 @@ namespace Exemplar
   RotationUse
   ElasticPotential::find_pressures(const TermPoint &at, const RotationUse rotations)
   {
-    if (patches == nullptr)
+    if (blocks.empty())
       return rotations;
     cells.update_dilatations(at.positions, rotations);
-    patches->read_dilatations(at.positions);
-    patches->write_pressures(at);
+    for (const auto &block : blocks)
+    {
+      block->read_dilatations(at.positions);
+      block->write_pressures(at);
+    }
     return RotationUse::keep;
   }
 
@@ -222,8 +217,9 @@ namespace Exemplar
   {
     if (linear_term == nullptr)
       rotations = find_pressures({ positions, weights }, rotations);
-    else if (patches != nullptr) // the loop of that term has found the dilatations
-      patches->write_pressures({ positions, weights });
+    else
+      for (const auto &block : blocks) // the loop of that term has found the dilatations
+        block->write_pressures({ positions, weights });
     CellTask cell_task = task(positions, weights, rotations);
     cell_task.with_weight_sums &= linear_term == nullptr;
     NodalSums            &nodal_sums = cells.get_nodal_sums();
@@ -250,8 +246,8 @@ namespace Exemplar
     own->weight_scale    = 0.;
     own->gradient.reinit(parts.fe_space.n_dofs());
     own->force_scale.reinit(parts.fe_space.n_nodes());
-    if (patches != nullptr)
-      patches->add({ positions, weights }, own);
+    for (const auto &block : blocks)
+      block->add({ positions, weights }, own);
     nodal_sums.add_to(own->gradient, own->force_scale);
     result = complete(parts.fe_space.exchange(), std::move(own));
     add_penalty(weights, result);
@@ -275,10 +271,10 @@ namespace Exemplar
                              });
         });
     std::vector<double> linear_term = weight_sums.total();
-    if (patches != nullptr)
+    for (const auto &block : blocks)
     {
-      patches->read_dilatations(positions);
-      patches->add_weight_linear_term(linear_term);
+      block->read_dilatations(positions);
+      block->add_weight_linear_term(linear_term);
     }
     parts.fe_space.exchange().sum(linear_term);
     parts.weights.get_memory().add_linear_term(linear_term);
@@ -293,8 +289,8 @@ namespace Exemplar
     const unsigned int  n        = parts.fe_space.n_cells();
     const unsigned int  n_points = parts.fe_space.n_points();
     std::vector<double> densities(n_points, 0.);
-    if (patches != nullptr)
-      patches->add_densities(densities);
+    for (const auto &block : blocks)
+      block->add_densities(densities);
     const CellBatches &batches = cells.get_batches();
     CellResults results{ std::vector<double>(n), std::vector<double>(n), std::vector<double>(n),
                          std::vector<double>() };
@@ -333,8 +329,10 @@ namespace Exemplar
   ElasticPotential::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    const std::size_t memory_of_patches = patches == nullptr ? 0 : patches->memory_consumption();
-    return cells.memory_consumption() + memory_consumption(pattern.column_start)
-           + memory_consumption(pattern.row) + scatter.memory_consumption() + memory_of_patches;
+    std::size_t bytes = cells.memory_consumption() + memory_consumption(pattern->column_start)
+                        + memory_consumption(pattern->row) + scatter->memory_consumption();
+    for (const auto &block : blocks)
+      bytes += block->memory_consumption();
+    return bytes;
   }
 } // namespace Exemplar

@@ -97,7 +97,7 @@ namespace Exemplar
     const Element     element = parts.fe_space.element();
     const std::size_t n       = n_block_columns(nodes_per_cell(element));
     const std::size_t n_cells = batch_size / points_per_cell(element); // in a batch
-    for (const unsigned int cell : scatter.mixed_cells())
+    for (const unsigned int cell : scatter->mixed_cells())
     {
       const std::size_t   batch = cell / n_cells;
       std::vector<int>    apart(n * n_cells, FreeDofs::held);
@@ -108,7 +108,7 @@ namespace Exemplar
       tangent.values    = blocks.data();
       cells.for_each_law(task, [&](const CellTask &of_law)
                          { add_tangent_of_law(of_law, tangent, batch, batch + 1); });
-      scatter.add_blocks(cell, blocks.data(), values);
+      scatter->add_blocks(cell, blocks.data(), values);
     }
   }
 
@@ -159,18 +159,18 @@ namespace Exemplar
     if (tangent == Tangent::convex)
       cell_task.damping = cells.get_damping().arrays_of_all_cells();
     const TangentTask to
-        = { tangent == Tangent::convex, scatter.positions(), matrix_values.data() };
+        = { tangent == Tangent::convex, scatter->positions(), matrix_values.data() };
     cells.for_each_law(cell_task, [&](const CellTask &of_law)
                        { add_tangent_of_law(of_law, to, 0, of_law.cells.n_batches()); });
     add_mixed_cells(cell_task, to, matrix_values);
     if (tangent == Tangent::convex)
-      add_stretch_stiffness(parts.fe_space, cells, scatter, positions, matrix_values);
+      add_stretch_stiffness(parts.fe_space, cells, *scatter, positions, matrix_values);
     columns.clear();
     if (parts.weights.n_unknown() > 0)
       with_element(parts.fe_space.element(),
                    [&](const auto of) { assemble_coupling<of()>(cell_task, to.convex, columns); });
-    if (patches != nullptr)
-      patches->add_tangent({ positions, weights }, tangent, matrix_values, columns, products);
+    for (const auto &block : blocks)
+      block->add_tangent({ positions, weights }, tangent, matrix_values, columns, products);
   }
 
   void
@@ -200,8 +200,8 @@ namespace Exemplar
   {
     find_pressures(at, RotationUse::keep);
     cells.refresh_rotations();
-    if (patches != nullptr)
-      patches->add_response(at, tangent, displacement, sums);
+    for (const auto &block : blocks)
+      block->add_response(at, tangent, displacement, sums);
     PointResponse response(parts, cells, tangent, at, sums);
     for_points_beside_held_nodes([&](const unsigned int point)
                                  { response.add(point, displacement); });

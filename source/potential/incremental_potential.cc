@@ -53,12 +53,10 @@ namespace Exemplar
                                              PotentialTerms      new_terms,
                                              TimeIntegrator     *integrator,
                                              const bool          in_parts)
-      : terms(std::move(new_terms)), tangent(parts, cells, terms, in_parts),
-        cells(parts, tangent.get_pattern()), weights(parts.weights), integrator(integrator),
-        fe_space(parts.fe_space), free_dofs(parts.free_dofs)
+      : terms(std::move(new_terms)), cells(parts), tangent(parts, cells, terms, in_parts),
+        weights(parts.weights), integrator(integrator), fe_space(parts.fe_space),
+        free_dofs(parts.free_dofs)
   {
-    for (const auto &term : terms)
-      tangent.attach(*term);
   }
 
   void
@@ -71,7 +69,7 @@ namespace Exemplar
   void
   IncrementalPotential::follow_parameters()
   {
-    cells.follow_parameters();
+    body.follow_parameters();
     for (const auto &term : terms)
       term->follow_parameters();
   }
@@ -79,14 +77,14 @@ namespace Exemplar
   void
   IncrementalPotential::begin_step(const State &start, const double step_size)
   {
-    cells.get_field().get_batches().set_history(start.history);
-    cells.get_field().get_batches().set_step_size(
+    body.set_history(start.history);
+    body.set_step_size(
         integrator != nullptr ? step_size : std::numeric_limits<double>::infinity());
     if (integrator != nullptr)
     {
       integrator->begin_step(start, step_size);
       in_dynamic_step = true;
-      cells.begin_step(integrator->stiffness_damping_factor(), integrator->history(start));
+      body.begin_step(integrator->stiffness_damping_factor(), integrator->history(start));
     }
     if (weights.get_memory().in_use())
       weights.set_step(integrator != nullptr ? integrator->weight_step(start)
@@ -121,7 +119,7 @@ namespace Exemplar
   void
   IncrementalPotential::end_step(State &end)
   {
-    end.history = cells.get_field().advance_history(end.positions);
+    end.history = body.advance_history(end.positions);
     end.dissipated += weights.get_memory().dissipation(end.weights).total();
     std::vector<double> of_terms;
     for (const auto &term : terms)
@@ -144,9 +142,9 @@ namespace Exemplar
   IncrementalPotential::leave_step(const State &at)
   {
     in_dynamic_step = false;
-    cells.get_field().get_batches().set_history(at.history);
-    cells.get_field().get_batches().set_step_size(0.);
-    cells.leave_step();
+    body.set_history(at.history);
+    body.set_step_size(0.);
+    body.leave_step();
     if (weights.get_memory().in_use())
       weights.set_step({ at.weights, {} });
     for (const auto &term : terms)
@@ -176,7 +174,7 @@ namespace Exemplar
                                  const RotationUse rotations,
                                  Evaluation       &evaluation)
   {
-    cells.evaluate(at.positions, at.weights, evaluation.elastic, rotations);
+    body.evaluate(at.positions, at.weights, evaluation.elastic, rotations);
     add_terms(at.positions, evaluation);
   }
 
@@ -192,9 +190,9 @@ namespace Exemplar
     }
     // the loop over the cells needs the weights, so their linear term takes a loop of its own,
     // which leaves the rotations that both need
-    const std::vector<double> c = cells.weight_linear_term(at.positions, RotationUse::update);
+    const std::vector<double> c = body.weight_linear_term(at.positions, RotationUse::update);
     at.weights                  = weights.best(c, at.weights);
-    cells.evaluate(at.positions, at.weights, evaluation.elastic, RotationUse::keep, &c);
+    body.evaluate(at.positions, at.weights, evaluation.elastic, RotationUse::keep, &c);
     add_terms(at.positions, evaluation);
   }
 
@@ -230,7 +228,7 @@ namespace Exemplar
   Residual
   IncrementalPotential::residual(const State &at, const Evaluation &evaluation) const
   {
-    double rounding = cells.rounding_force();
+    double rounding = body.rounding_force();
     for (const auto &term : terms)
       rounding += term->rounding_force();
     rounding = free_dofs.exchange().max(rounding);
@@ -241,7 +239,7 @@ namespace Exemplar
                                          rounding);
     WeightResidual of_weights = weights.residual(at.weights, evaluation.elastic.weight_gradient);
     residual.weights          = relative(of_weights.deviation, evaluation.elastic.weight_scale,
-                                         cells.rounding_weight_gradient());
+                                         body.rounding_weight_gradient());
     residual.multipliers      = std::move(of_weights.multipliers);
     return residual;
   }

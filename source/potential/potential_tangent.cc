@@ -43,6 +43,9 @@ namespace Exemplar
       : parts(parts), cells(cells), terms(terms)
   {
     make_pattern_of_couplings(in_parts);
+    cells.attach(pattern);
+    for (const auto &term : terms)
+      attach(*term);
   }
 
   void
@@ -60,7 +63,7 @@ namespace Exemplar
       made.products_are_apart = in_parts;
       return made;
     };
-    NodePairs all        = ElasticPotential::couplings(parts, in_parts);
+    NodePairs all        = cells.couplings(in_parts);
     couplings            = couplings_of(terms);
     const bool has_plain = plain != nullptr && plain_of == parts.free_dofs.version()
                            && plain->products_are_apart == in_parts;
@@ -78,7 +81,7 @@ namespace Exemplar
     const unsigned int version = pattern.version;
     make_pattern_of_couplings(pattern.products_are_apart);
     pattern.version = version + 1;
-    cells.follow_pattern();
+    cells.attach(pattern);
     for (const auto &term : terms)
       attach(*term);
   }

@@ -26,7 +26,7 @@ namespace Exemplar
     StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(time, trial);
     if (potential.changes_between_steps())
-      potential.get_cells().evaluate(trial.positions, trial.weights, evaluation.elastic);
+      potential.get_body().evaluate(trial.positions, trial.weights, evaluation.elastic);
     // Only the cells beside held nodes feel that the handles move, and as long as the
     // rotations are frozen their forces are linear in the displacement.
     if (handles.size() > 0)
@@ -35,7 +35,7 @@ namespace Exemplar
       handles.move(time, trial.positions);
       Vector displacement = from.positions;
       displacement.sadd(-1., 1., trial.positions);
-      potential.get_cells().add_response(Tangent::convex, displacement, from.positions,
+      potential.get_body().add_response(Tangent::convex, displacement, from.positions,
                                          from.weights, evaluation.elastic);
     }
     potential.add_terms(trial.positions, evaluation);

@@ -105,7 +105,7 @@ namespace Exemplar
   bool
   Newton::is_descent_of_flow(const State &from, const State &to, Evaluation &evaluation)
   {
-    if (!potential.get_cells().get_field().get_batches().remembers())
+    if (!potential.get_body().remembers())
       return true;
     const auto potential_of = [&](State state)
     {
@@ -127,9 +127,9 @@ namespace Exemplar
     try
     {
       const bool has_factor = tangent == Tangent::exact && find_factor(start);
-      potential.get_cells().get_field().update_rotations(from.positions);
-      potential.get_cells().evaluate(from.positions, from.weights, evaluation.elastic);
-      potential.get_cells().add_response(tangent, displacement, from.positions, from.weights,
+      potential.get_body().update_rotations(from.positions);
+      potential.get_body().evaluate(from.positions, from.weights, evaluation.elastic);
+      potential.get_body().add_response(tangent, displacement, from.positions, from.weights,
                                          evaluation.elastic);
       potential.add_terms(from.positions, evaluation);
       if (!has_factor)
@@ -155,13 +155,13 @@ namespace Exemplar
     if (linearization.factor != system.n_factorizations())
     {
       // after a resume
-      CellField &cells = potential.get_cells().get_field();
-      cells.get_batches().set_history(linearization.history);
-      cells.update_rotations(linearization.positions);
+      ElasticBody &body = potential.get_body();
+      body.set_history(linearization.history);
+      body.update_rotations(linearization.positions);
       system.factorize(linearization.positions, linearization.weights, 0.);
       system.prepare();
       system.count_as_remade();
-      cells.get_batches().set_history(start.state.history);
+      body.set_history(start.state.history);
       linearization.factor = system.n_factorizations();
     }
     return true;

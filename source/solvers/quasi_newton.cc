@@ -108,7 +108,7 @@ namespace Exemplar
     metric.clear(); // whose memory the next one takes
     system.factorize_roughly(positions, weights, 1.);
     StepClock::Scope scope(clock, Phase::factorize);
-    potential.get_cells().get_field().node_rotations(node_rotations);
+    potential.get_body().node_rotations(node_rotations);
     metric.reinit(system.bordered(), inverse_columns(system.bordered()), node_rotations);
     metric.rotate(node_rotations);
   }
@@ -165,7 +165,7 @@ namespace Exemplar
     else
     {
       StepClock::Scope scope(clock, Phase::solve);
-      potential.get_cells().get_field().node_rotations(node_rotations);
+      potential.get_body().node_rotations(node_rotations);
       metric.rotate(node_rotations);
     }
   }

@@ -35,7 +35,7 @@ namespace Exemplar
   bool
   QuasiNewton::begin_factor(const Vector &positions, const std::vector<double> &weights)
   {
-    potential.get_cells().get_field().node_rotations(next_rotations);
+    potential.get_body().node_rotations(next_rotations);
     return system.begin_factor(positions, weights, 1.);
   }
 
@@ -60,7 +60,7 @@ namespace Exemplar
     {
       if (made.start.positions.size() > 0)
         potential.begin_step(made.start, made.step_size);
-      potential.get_cells().get_field().update_rotations(made.positions);
+      potential.get_body().update_rotations(made.positions);
     };
     go_back_to(history);
     make_metric(history.positions, history.weights);

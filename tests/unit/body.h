@@ -224,9 +224,9 @@ namespace Exemplar::Testing
         : MatrixPattern{ make_pattern(body.fe_space, couplings_of(body), free_dofs),
                          body.examples(ExampleParameters()) },
           ElasticPotential({ laws, body.fe_space, body.material, body.cell_material, body.patches,
-                             *given(examples).poses, *given(examples).weights, free_dofs },
-                           matrix_pattern)
+                             *given(examples).poses, *given(examples).weights, free_dofs })
     {
+      attach(matrix_pattern);
     }
 
     /// From now on the pattern is that of the cells.
@@ -235,19 +235,7 @@ namespace Exemplar::Testing
     {
       matrix_pattern                    = make_pattern(body.fe_space, {}, free_dofs);
       matrix_pattern.products_are_apart = true;
-      follow_pattern();
-    }
-
-    void
-    update_rotations(const Vector &positions)
-    {
-      get_field().update_rotations(positions);
-    }
-
-    void
-    node_rotations(std::vector<float> &rotations)
-    {
-      get_field().node_rotations(rotations);
+      attach(matrix_pattern);
     }
 
     ElasticEvaluation

@@ -20,7 +20,7 @@ namespace Exemplar
                const FreeDofs                                           &free_dofs);
 
   /// Where the entries of the cells' matrices are in the matrix of the body. Made for the pattern and
-  /// the free degrees of freedom as they are, until reinit().
+  /// the free degrees of freedom as they are.
   class CellScatter
   {
   public:
@@ -28,10 +28,6 @@ namespace Exemplar
     CellScatter(const FESpace          &fe_space,
                 const SymmetricPattern &pattern,
                 const FreeDofs         &free_dofs);
-
-    /// Follow the pattern and the free degrees of freedom as they are now.
-    void
-    reinit();
 
     /// TangentTask::positions from the first batch of points on; -1 for cells with both free and held
     /// components at a node (mixed cells).

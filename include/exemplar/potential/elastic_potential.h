@@ -5,11 +5,11 @@
 #include <exemplar/body/example_weights.h>
 #include <exemplar/body/laws_of_cells.h>
 #include <exemplar/potential/cell_scatter.h>
-#include <exemplar/potential/evaluation.h>
+#include <exemplar/potential/elastic_body.h>
 #include <exemplar/potential/patch_dilatation.h>
 
-#include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace Exemplar
@@ -46,38 +46,69 @@ namespace Exemplar
     double stress_norm = 0.; ///< (sum V T^2)^(1/2)
   };
 
-  /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping: sums over the cells and patches of the body of
-  /// energies and forces, the matrix A and the columns G of Eq. (10). Rotations are kept ("frozen") until
-  /// update_rotations() or an evaluation that updates them. Positions, displacements and forces are
-  /// by degree of freedom.
-  class ElasticPotential
+  /// The body of cells and their patches.
+  class ElasticPotential : public ElasticBody
   {
   public:
-    /// `pattern`, with the couplings() of the parts unless products are apart, must outlive the potential.
-    ElasticPotential(const ElasticParts &parts, const SymmetricPattern &pattern);
+    /// Needs attach() before all else.
+    explicit ElasticPotential(const ElasticParts &parts);
 
-    /// Pairs of nodes that its tangent couples beside those that share a cell; `in_parts`: but those of outer products.
-    static NodePairs
-    couplings(const ElasticParts &parts, bool in_parts);
+    NodePairs
+    couplings(bool in_parts) const override;
 
-    /// The pattern, or what is held, is another from now on.
-    void
-    follow_pattern();
-
-    /// Whether its tangent has outer products, which a pattern may be without.
     bool
-    couples_by_products() const
+    couples_by_products() const override
     {
-      return patches != nullptr && PatchDilatation::couples_by_products(parts.fe_space);
+      return parts.patches.size() > 0 && PatchDilatation::couples_by_products(parts.fe_space);
     }
 
-    /// A step begins with this damping, as StrainDamping::set() has it.
     void
-    begin_step(double s, const std::vector<WeightedPositions> &history);
+    attach(const SymmetricPattern &pattern) override;
 
-    /// From now on states are evaluated without a step that leads to them.
     void
-    leave_step();
+    follow_parameters() override;
+
+    void
+    begin_step(double s, const std::vector<WeightedPositions> &past) override;
+
+    void
+    leave_step() override;
+
+    void
+    set_step_size(const double size) override
+    {
+      cells.get_batches().set_step_size(size);
+    }
+
+    bool
+    remembers() const override
+    {
+      return cells.get_batches().remembers();
+    }
+
+    void
+    set_history(const std::vector<double> &history) override
+    {
+      cells.get_batches().set_history(history);
+    }
+
+    std::vector<double>
+    advance_history(const Vector &positions) override
+    {
+      return cells.advance_history(positions);
+    }
+
+    void
+    update_rotations(const Vector &positions) override
+    {
+      cells.update_rotations(positions);
+    }
+
+    void
+    node_rotations(std::vector<float> &rotations) override
+    {
+      cells.node_rotations(rotations);
+    }
 
     CellField &
     get_field()
@@ -91,61 +122,46 @@ namespace Exemplar
       return cells;
     }
 
-    /// The material, the importance of the examples or the weights' form are others from now on.
-    void
-    follow_parameters();
-
-    /// Energies and their derivatives. If the caller has the weight_linear_term() of these
-    /// positions, the derivatives by the weights are H w - c, and the loop need not sum them.
     void
     evaluate(const Vector              &positions,
              const std::vector<double> &weights,
              ElasticEvaluation         &evaluation,
              RotationUse                rotations   = RotationUse::keep,
-             const std::vector<double> *linear_term = nullptr);
+             const std::vector<double> *linear_term = nullptr) override;
 
-    /// Add what the cells of this process give to A, Eq. (8) or (18), to the values on the pattern
-    /// [N/m], and to `products` where the pattern wants them apart, and, with weights to find, set what they give to the coupling G, Eqs. (9) and (40): a column a
-    /// strained weight on FreeDofs::local_list(), one after the other [N]. An exact tangent needs the rotations of these positions.
     void
     assemble_tangent(Tangent                    tangent,
                      const Vector              &positions,
                      const std::vector<double> &weights,
                      std::vector<double>       &matrix_values,
                      std::vector<double>       &columns,
-                     OuterProducts             *products = nullptr);
+                     OuterProducts             *products = nullptr) override;
 
-    /// Add what `displacement` [m] from `positions`, zero but on held degrees of freedom, changes
-    /// by that tangent in the forces and the weight gradient. Only cells beside held nodes feel it.
     void
     add_response(Tangent                    tangent,
                  const Vector              &displacement,
                  const Vector              &positions,
                  const std::vector<double> &weights,
-                 ElasticEvaluation         &evaluation);
+                 ElasticEvaluation         &evaluation) override;
 
-    /// c_i with dPsi/dw = H w - c at these positions [J].
     std::vector<double>
-    weight_linear_term(const Vector &positions, RotationUse rotations = RotationUse::keep);
+    weight_linear_term(const Vector &positions, RotationUse rotations = RotationUse::keep) override;
 
-    /// A residual force [N] that is nothing but the rounding of the positions.
     double
-    rounding_force() const
+    rounding_force() const override
     {
       // both strains that damping compares have rounding of their own, the decomposition's, too
       return (1. + 8. * cells.get_damping().factor()) * rounding.force;
     }
 
-    /// A derivative of the energy by a weight [J] that is nothing but the rounding of the positions.
     double
-    rounding_weight_gradient() const;
+    rounding_weight_gradient() const override;
 
     CellResults
     cell_results(const Vector &positions, const std::vector<double> &weights);
 
-    /// In bytes, its pattern included.
     std::size_t
-    memory_consumption() const;
+    memory_consumption() const override;
 
   private:
     CellTask
@@ -171,7 +187,7 @@ namespace Exemplar
     for_points_beside_held_nodes(const Function &function) const
     {
       const unsigned int n = points_per_cell(parts.fe_space.element());
-      for (const unsigned int cell : scatter.cells_beside_held_nodes())
+      for (const unsigned int cell : scatter->cells_beside_held_nodes())
         for (unsigned int point = n * cell; point < n * (cell + 1); ++point)
           function(point);
     }
@@ -197,12 +213,14 @@ namespace Exemplar
                      const TermPoint &at,
                      ElasticSums     &sums);
 
-    const ElasticParts                     parts;
-    const SymmetricPattern                &pattern;
-    CellField                              cells;
-    CellScatter                            scatter;
-    const std::unique_ptr<PatchDilatation> patches; ///< null without patches
-    CellRounding                           rounding;
+    const ElasticParts         parts;
+    CellField                  cells;
+    const SymmetricPattern    *pattern = nullptr; ///< since attach()
+    std::optional<CellScatter> scatter;           ///< since attach()
+
+    /// What has an energy beside the cells' own: the patches, if there are any.
+    std::vector<std::unique_ptr<PatchDilatation>> blocks;
+    CellRounding                                  rounding;
   };
 } // namespace Exemplar
 

@@ -124,7 +124,7 @@ namespace Exemplar
     bool
     changes_between_steps() const
     {
-      return cells.get_field().get_batches().remembers() || weights.are_prescribed()
+      return body.remembers() || weights.are_prescribed()
              || (in_dynamic_step
                  && (integrator->stiffness_damping_factor() > 0. || weights.get_memory().creeps()));
     }
@@ -166,6 +166,13 @@ namespace Exemplar
     cell_order() const
     {
       return fe_space.cell_order();
+    }
+
+    /// The body, whatever it is made of.
+    ElasticBody &
+    get_body()
+    {
+      return body;
     }
 
     ElasticPotential &
@@ -210,8 +217,9 @@ namespace Exemplar
     renew_terms(const State &at);
 
     PotentialTerms   terms;
-    PotentialTangent tangent; ///< of cells and terms
     ElasticPotential cells;
+    ElasticBody     &body = cells;
+    PotentialTangent tangent; ///< of body and terms
     ExampleWeights  &weights;
     TimeIntegrator  *integrator;
     const FESpace   &fe_space;

@@ -14,8 +14,8 @@ namespace Exemplar
   class PotentialTangent
   {
   public:
-    /// The tangent of cells, which are made after it of the same parts, and of terms; all must outlive it. If `in_parts`, the
-    /// pattern is without the couplings of outer products.
+    /// The tangent of the cells of these parts, and of terms; all must outlive it. If `in_parts`, the pattern is without the
+    /// couplings of outer products.
     PotentialTangent(const ElasticParts   &parts,
                      ElasticPotential     &cells,
                      const PotentialTerms &terms,

@@ -7,7 +7,7 @@
 #include <exemplar/algebra/vector.h>
 #include <exemplar/body/state.h>
 #include <exemplar/potential/cell_field.h>
-#include <exemplar/potential/evaluation.h>
+#include <exemplar/potential/elastic_body.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
@@ -27,9 +27,6 @@ namespace Exemplar
     const Vector              &positions; ///< by degree of freedom [m]
     const std::vector<double> &weights;   ///< of the examples; empty without examples
   };
-
-  /// Pairs of nodes whose degrees of freedom a matrix couples.
-  using NodePairs = std::vector<std::pair<unsigned int, unsigned int>>;
 
   /// What has changed in a term.
   enum class TermChange

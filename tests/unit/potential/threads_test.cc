@@ -21,8 +21,8 @@ namespace Exemplar::Testing
         const SymmetricPattern pattern = make_pattern(body.fe_space, couplings_of(body), free_dofs);
         ElasticPotential       potential({ CellLaw::corotational, body.fe_space, body.material,
                                            body.cell_material, body.patches, *examples.poses,
-                                           *examples.weights, free_dofs, n_threads },
-                                         pattern);
+                                           *examples.weights, free_dofs, n_threads });
+        potential.attach(pattern);
         const Vector           x          = body.drawn(length, 1. / std::sqrt(length), 7);
         const std::vector<double> weights = { 0.1, 0.3, 0.6 };
         potential.evaluate(x, weights, evaluation, RotationUse::update);

@@ -50,8 +50,8 @@ namespace Exemplar::Testing
         Problem            &p = scene.problem;
         ElasticPotential    undamped({ p.parameters.model.law(), p.body.fe_space, p.body.material,
                                        p.body.cell_material, p.body.patches, p.examples.poses,
-                                       p.examples.weights, p.constraints.free_dofs },
-                                     p.potential.get_tangent().get_pattern());
+                                       p.examples.weights, p.constraints.free_dofs });
+        undamped.attach(p.potential.get_tangent().get_pattern());
         std::vector<Vector> x = { p.state.positions }, v = { p.state.velocities };
         while (p.state.step < p.time_axis.n_steps())
         {
