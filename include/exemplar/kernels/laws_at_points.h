@@ -44,7 +44,7 @@ namespace Exemplar::Laws
   }
 
   template <typename Cell, typename Number>
-  void
+  [[gnu::flatten]] void
   evaluate(const LawInput<Number> &in, const bool with_weight_stress, LawValue<Number> &out)
   {
     constexpr bool remembers = Cell::traits.n_history > 0;
@@ -93,7 +93,7 @@ namespace Exemplar::Laws
   }
 
   template <typename Cell, typename Number>
-  Matrix3<Number>
+  [[gnu::flatten]] Matrix3<Number>
   weight_stress(const LawInput<Number> &in)
   {
     return free_cell<Cell>(in).weight_stress(Matrix3<Number>{});
@@ -133,7 +133,7 @@ namespace Exemplar::Laws
   }
 
   template <typename Cell, typename Number>
-  void
+  [[gnu::flatten]] void
   tangent(const LawInput<Number> &in, const bool convex, LawTangent<Number> &out)
   {
     if constexpr (!Cell::traits.exact_is_rotated)
@@ -147,7 +147,7 @@ namespace Exemplar::Laws
   }
 
   template <typename Cell, typename Number>
-  void
+  [[gnu::flatten]] void
   columns(const LawInput<Number> &in,
           const bool              convex,
           const std::size_t       n,

@@ -64,7 +64,7 @@ namespace Exemplar::Loops
   }
 
   template <typename Number, int n_nodes>
-  inline void
+  [[gnu::flatten]] inline void
   dilatations(const CellTask &task, const std::size_t begin, const std::size_t end)
   {
     const LawFunctions<Number> &law = law_functions<Number>(task.cells.law);

@@ -150,20 +150,23 @@ namespace Exemplar::Loops
     add_forces(task, group, tet, times(tet.volume, R * P), scale, nodal_sums);
   }
 
-  /// Add the guard of the stretch, where it acts, as it does in hardly any cell.
-  template <typename Number, int n_nodes>
+  // What hardly any cell needs loads its cells anew: arguments by reference would keep the numbers
+  // of all others out of registers.
+
+  /// Add the guard of the stretch, where it acts.
+  template <int n_nodes, typename Number>
   [[gnu::noinline, gnu::cold]] void
-  add_stretch_guard(const CellTask                     &task,
-                    const LawFunctions<Number>         &law,
-                    const LaneGroup<Number>            &group,
-                    const Tetrahedron<Number, n_nodes> &tet,
-                    const LawInput<Number>             &in,
-                    double                             *nodal_sums,
-                    LaneSums<Number, n_nodes>          &sums)
+  add_stretch_guard(const CellTask             &task,
+                    const LawFunctions<Number> &law,
+                    const LaneGroup<Number>    &group,
+                    const LawInput<Number>     &in,
+                    double                     *nodal_sums,
+                    LaneSums<Number, n_nodes>  &sums)
   {
     const StretchGuard<Number> guard = law.stretch_guard(in);
     if (!guard.acts())
       return;
+    const auto   tet    = load_tetrahedron<n_nodes>(task.cells, group);
     const Number energy = tet.volume * guard.energy();
     sums.elastic += energy;
     sums.energy += energy;
@@ -171,17 +174,17 @@ namespace Exemplar::Loops
   }
 
   /// Add the forces of patches beside their pressures, where there are any.
-  template <typename Number, int n_nodes>
+  template <int n_nodes, typename Number>
   [[gnu::noinline, gnu::cold]] void
-  add_stress_of_special(const CellTask                     &task,
-                        const LaneGroup<Number>            &group,
-                        const Tetrahedron<Number, n_nodes> &tet,
-                        const LawInput<Number>             &in,
-                        double                             *nodal_sums)
+  add_stress_of_special(const CellTask          &task,
+                        const LaneGroup<Number> &group,
+                        const LawInput<Number>  &in,
+                        double                  *nodal_sums)
   {
     const Matrix3<Number> P
         = patch_cell(task, group, in.R, in.F).force(transpose_times(in.R, in.F), in.pressure);
-    add_turned_forces(task, group, tet, in.R, P, Number(0.), nodal_sums);
+    add_turned_forces(task, group, load_tetrahedron<n_nodes>(task.cells, group), in.R, P,
+                      Number(0.), nodal_sums);
   }
 
   template <typename Number, int n_nodes>
@@ -195,17 +198,21 @@ namespace Exemplar::Loops
                  double                     *weight_sums,
                  LaneSums<Number, n_nodes>  &sums)
   {
-    const auto            tet = load_tetrahedron<n_nodes>(task.cells, group);
-    const Matrix3<Number> F   = deformation_gradient(task, group, tet);
-    load_state(task, law, group, rotation(task, law, group, F), F, in);
+    {
+      const Matrix3<Number> F
+          = deformation_gradient(task, group, load_tetrahedron<n_nodes>(task.cells, group));
+      load_state(task, law, group, rotation(task, law, group, F), F, in);
+    }
     load_drives(task, group, in);
     law.evaluate(in, task.with_weight_sums, value);
 
+    // loaded once more, as no register survives the call
+    const auto   tet     = load_tetrahedron<n_nodes>(task.cells, group);
     const auto   is_real = tet.volume > Number(0.);
     const Number det
         = task.cells.has_other_laws
-              ? select(is_real, determinant(F), Number(std::numeric_limits<double>::max()))
-              : determinant(F);
+              ? select(is_real, determinant(in.F), Number(std::numeric_limits<double>::max()))
+              : determinant(in.F);
     sums.min_det = select(det >= sums.min_det, sums.min_det, det);
     sums.inverted.add(group, is_real & (det <= Number(0.)));
     sums.elastic += tet.volume * value.elastic;
@@ -230,14 +237,14 @@ namespace Exemplar::Loops
     if (is_in_patch) // the guard of the stretch is the patch's, then
     {
       if (law.traits->has_guard_of_patches() && is_special(task.dilatation, group))
-        add_stress_of_special(task, group, tet, in, nodal_sums);
+        add_stress_of_special<n_nodes>(task, group, in, nodal_sums);
     }
     else if (value.may_be_stretched)
-      add_stretch_guard(task, law, group, tet, in, nodal_sums, sums);
+      add_stretch_guard<n_nodes>(task, law, group, in, nodal_sums, sums);
   }
 
   template <typename Number, int n_nodes>
-  inline void
+  [[gnu::flatten]] inline void
   evaluate(const CellTask   &task,
            const std::size_t begin,
            const std::size_t end,
@@ -257,7 +264,7 @@ namespace Exemplar::Loops
   }
 
   template <typename Number, int n_nodes>
-  inline void
+  [[gnu::flatten]] inline void
   weight_linear_term(const CellTask   &task,
                      const std::size_t begin,
                      const std::size_t end,

@@ -27,21 +27,28 @@ namespace Exemplar::Loops
     in.step_size = task.cells.step_size;
   }
 
+  template <typename Number>
+  inline void
+  load_damping(const CellTask &task, const LaneGroup<Number> &group, LawInput<Number> &in)
+  {
+    in.is_damped = task.damping.factors != nullptr;
+    if (in.is_damped)
+    {
+      in.damping = load(task.damping.factors, group, 1, 0);
+      in.past    = load_strain(task.damping.strains, group, 1, 0);
+    }
+  }
+
   /// Set what acts on the cells of a group: examples, damping, and their patches.
   template <typename Number>
   inline void
   load_drives(const CellTask &task, const LaneGroup<Number> &group, LawInput<Number> &in)
   {
     in.has_target   = task.examples.n_weights > 0;
-    in.is_damped    = task.damping.factors != nullptr;
     in.has_pressure = task.dilatation.pressures != nullptr;
     if (in.has_target)
       in.target = target(task, group);
-    if (in.is_damped)
-    {
-      in.damping = load(task.damping.factors, group, 1, 0);
-      in.past    = load_strain(task.damping.strains, group, 1, 0);
-    }
+    load_damping(task, group, in);
     if (in.has_pressure)
       in.pressure = load(task.dilatation.pressures, group, 1, 0);
     if (task.dilatation.volume.pressures != nullptr)

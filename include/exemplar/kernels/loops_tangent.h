@@ -13,17 +13,25 @@
 
 namespace Exemplar::Loops
 {
-  /// The cells of a group as the tangent of a law needs them: with the stored rotations.
+  /// The cells of a group as a tangent of the law needs them, with the stored rotations: R K R^T
+  /// needs neither F nor targets.
   template <typename Number, int n_nodes>
   inline void
   load_driven(const CellTask                     &task,
               const LawFunctions<Number>         &law,
+              const bool                          convex,
               const LaneGroup<Number>            &group,
               const Tetrahedron<Number, n_nodes> &tet,
               LawInput<Number>                   &in)
   {
-    load_state(task, law, group, load_rotation(task.cells, group),
-               deformation_gradient(task, group, tet), in);
+    const Matrix3<Number> R = load_rotation(task.cells, group);
+    if (law.is_rotated(convex))
+    {
+      load_state(task, law, group, R, R, in);
+      load_damping(task, group, in);
+      return;
+    }
+    load_state(task, law, group, R, deformation_gradient(task, group, tet), in);
     load_drives(task, group, in);
   }
 
@@ -44,7 +52,7 @@ namespace Exemplar::Loops
                                   [&](const LaneGroup<Number> &group)
                                   {
                                     const auto tet = load_tetrahedron<n_nodes>(task.cells, group);
-                                    load_driven(task, law, group, tet, in);
+                                    load_driven(task, law, tangent.convex, group, tet, in);
                                     law.tangent(in, tangent.convex, of_point);
                                     cell_blocks(of_point, in.R, tet, columns);
                                     add_blocks<Number, n_nodes>(task, tangent, begin, group,
@@ -89,7 +97,7 @@ namespace Exemplar::Loops
         [&](const LaneGroup<Number> &group)
         {
           const auto tet = load_tetrahedron<n_nodes>(task.cells, group);
-          load_driven(task, law, group, tet, in);
+          load_driven(task, law, convex, group, tet, in);
           for (std::size_t first = 0; first < task.examples.n; first += at_once)
           {
             const std::size_t n = std::min<std::size_t>(at_once, task.examples.n - first);
