@@ -132,6 +132,16 @@ class SpaceError(SceneTest):
                 self.assertLess(found["displacement"], 1e-8)
                 self.assertLess(found["energy"], 1e-8)
 
+    def test_where_the_exact_tangent_leads_nowhere(self):
+        """Coarse cells that lock, with weights at a compromise: the estimate is like that of one brick less."""
+        lifted = {"Scene": "static", "Mesh/Generator": "box", "Mesh/Box size": "4, 1, 1", "Examples/Importance": "0.8",
+                  "Examples/Pose functions": SWING["Examples/Pose functions"], "Handles/Names": "left, right",
+                  "Handles/left/Select": "boundary 1", "Handles/right/Select": "boundary 2", "Handles/right/Motion": "0; 0; t",
+                  "Handles/right/Components": "z", "Model/Dilatation": "cells", "Output/Every": "0"}
+        eight, ten = (errors(self.solve({**lifted, "Mesh/Box cells": f"{n}, 2, 2", "Output/Space error": "true"}, output=str(n))) for n in (8, 10))
+        for kind in ("displacement", "energy", "weights"):
+            self.assertLess(abs(ten[kind] / eight[kind] - 1), .25, kind)
+
     def test_it_shows_where_to_refine(self):
         output = self.solve({**WEIGHT, "Output/Space error": "true", "Output/Every": "1"})
         frame, _, n_cells = read_vtu(output / "frame_0001.vtu")

@@ -215,25 +215,26 @@ namespace Exemplar
     return evaluation;
   }
 
-  BorderedVector
-  SpaceErrorEstimator::direction(const Correction &correction)
+  std::optional<bool>
+  SpaceErrorEstimator::improve(Correction &correction)
   {
-    StepSystem &system = quadratic->system;
     try
     {
-      system.factorize(correction.to.positions, correction.to.weights, 0.);
+      if (const auto found = improve_by(Tangent::exact, correction))
+        return found;
     }
     catch (const SolverFailure &) // the exact tangent is not definite
     {
-      system.factorize(correction.to.positions, correction.to.weights, 1.);
     }
-    return system.solve(correction.to, correction.at);
+    return improve_by(Tangent::convex, correction);
   }
 
-  bool
-  SpaceErrorEstimator::improve(Correction &correction)
+  std::optional<bool>
+  SpaceErrorEstimator::improve_by(const Tangent tangent, Correction &correction)
   {
-    const BorderedVector step  = direction(correction);
+    quadratic->system.factorize(correction.to.positions, correction.to.weights,
+                                tangent == Tangent::convex ? 1. : 0.);
+    const BorderedVector step  = quadratic->system.solve(correction.to, correction.at);
     double               slope = quadratic->system.slope(correction.at, step);
     for (std::size_t i = 0; i < step.weights.size(); ++i)
     {
@@ -267,7 +268,7 @@ namespace Exemplar
       return has_energy
              && std::abs(decrease - expected) > 1e-3 * correction.at.elastic.energy_elastic;
     }
-    return false;
+    return {};
   }
 
   SpaceErrorEstimator::Correction
@@ -276,9 +277,11 @@ namespace Exemplar
     Correction correction = take_over(linear);
     Vector     forces     = correction.at.gradient; // loads and inertia, which stay as they are
     forces -= correction.at.elastic.gradient;
-    for (unsigned int iteration = 0; iteration < 10 && improve(correction); ++iteration)
-    {
-    }
+    std::optional<bool> goes_on = improve(correction);
+    if (!goes_on)
+      throw SolverFailure("no step of quadratic elements leads to less energy");
+    for (unsigned int iteration = 1; iteration < 10 && goes_on.value_or(false); ++iteration)
+      goes_on = improve(correction);
     correction.work = -(forces * correction.moves);
     return correction;
   }

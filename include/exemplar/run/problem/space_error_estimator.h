@@ -6,6 +6,7 @@
 #include <exemplar/run/problem/problem.h>
 
 #include <memory>
+#include <optional>
 
 namespace Exemplar
 {
@@ -42,14 +43,14 @@ namespace Exemplar
     Evaluation
     evaluate(const Correction &correction);
 
-    /// Newton direction. Throws SolverFailure if no tangent is definite.
-    BorderedVector
-    direction(const Correction &correction);
-
-    /// Make a step that decreases the potential. Returns whether a further one would improve the
-    /// estimate.
-    bool
+    /// Make a step that decreases the potential, by the exact tangent or else the convex one. Returns
+    /// whether a further one would improve the estimate, and nothing if no step was made. Throws
+    /// SolverFailure if no tangent is definite.
+    std::optional<bool>
     improve(Correction &correction);
+
+    std::optional<bool>
+    improve_by(Tangent tangent, Correction &correction);
 
     Problem                 &problem;
     std::unique_ptr<Problem> quadratic;
