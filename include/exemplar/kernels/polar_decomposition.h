@@ -16,9 +16,10 @@ namespace Exemplar
   /// polynomial, which converges monotonically from above. With it R is a polynomial of F by Cayley
   /// and Hamilton, Eq. (14b), and one Newton step on the group of rotations removes rounding
   /// errors. Where two eigenvalues nearly coincide both are ill-conditioned, and Jacobi's method is
-  /// used instead.
+  /// used instead. Not inlined, as compilers contract products and sums of each copy in their own way
+  /// and all loops must find the same bits for the same F.
   template <typename Number>
-  Matrix3<Number>
+  [[gnu::noinline]] Matrix3<Number>
   closest_rotation(const Matrix3<Number> &F);
 
   namespace Polar

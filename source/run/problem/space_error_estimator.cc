@@ -13,6 +13,9 @@ namespace Exemplar
 {
   namespace
   {
+    /// An energy that is nothing but rounding, over that of a strain of 1.
+    constexpr double rounding_of_energy = 1e-20;
+
     /// The scene in quadratic elements, for solving one system without steps.
     SceneParameters
     quadratic_scene(SceneParameters scene)
@@ -242,6 +245,9 @@ namespace Exemplar
           i, correction.to.weights[i], correction.at.elastic.weight_gradient[i]);
       slope += (step.weights[i] > 0. ? slopes.up : slopes.down) * step.weights[i];
     }
+    if (std::abs(slope)
+        <= rounding_of_energy * unit_energy(quadratic->body.fe_space, quadratic->body.material))
+      return false;
     // frozen forces have no energy that could tell how long the step may be
     const bool has_energy = !quadratic->parameters.model.is_frozen();
     for (double length = 1.; length > 0.05; length *= 0.5)
@@ -306,7 +312,7 @@ namespace Exemplar
       // corrections below the rounding of a body at rest are no error
       const double length
           = 1e-10 * problem.body.mesh.diameter() * std::sqrt(fe_space.total_volume());
-      const double energy = 1e-20 * unit_energy(fe_space, problem.body.material);
+      const double energy = rounding_of_energy * unit_energy(fe_space, problem.body.material);
       const auto   over   = [](const double part, const double whole, const double minimum)
       { return part > minimum ? part / std::max(whole, part) : 0.; };
       error.displacement = over(norm(fe_space, correction.moves), norm(fe_space, u), length);
