@@ -133,7 +133,7 @@ namespace Exemplar::Laws
   }
 
   template <typename Cell, typename Number>
-  [[gnu::flatten]] void
+  void
   tangent(const LawInput<Number> &in, const bool convex, LawTangent<Number> &out)
   {
     if constexpr (!Cell::traits.exact_is_rotated)
@@ -147,7 +147,7 @@ namespace Exemplar::Laws
   }
 
   template <typename Cell, typename Number>
-  [[gnu::flatten]] void
+  void
   columns(const LawInput<Number> &in,
           const bool              convex,
           const std::size_t       n,
