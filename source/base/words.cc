@@ -14,6 +14,13 @@ namespace Exemplar
     return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
   }
 
+  bool
+  ends_with(const std::string &text, const std::string &end)
+  {
+    return text.size() >= end.size()
+           && text.compare(text.size() - end.size(), end.size(), end) == 0;
+  }
+
   std::vector<std::string>
   split_trimmed(const std::string &text, const char separator)
   {

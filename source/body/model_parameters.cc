@@ -112,21 +112,9 @@ namespace Exemplar
   void
   ModelParameters::check() const
   {
-    if (is_neo_hookean())
-      check_neo_hookean();
     if (has_patches() && !traits_of(law()).trace_gradient_is_R)
       throw UserError("Model/Dilatation = patches: is for the " + strains_with_patches()
                       + " strains, not for Model/Strain = " + traits_of(law()).name
                       + ". Leave it at auto, or take another strain.");
-  }
-
-  void
-  ModelParameters::check_neo_hookean() const
-  {
-    const std::string key = "Model/Background = neo-hookean";
-    if (law() != CellLaw::neo_hookean && traits_of(strain).is_strain())
-      throw UserError(key
-                      + " is for Model/Strain = corotational with Model/Gradient = consistent. Set "
-                        "these two, or Model/Background = corotational.");
   }
 } // namespace Exemplar

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/declared_options.h>
 #include <exemplar/base/message_text.h>
-#include <exemplar/base/nearest_word.h>
 #include <exemplar/exemplar.h>
 #include <exemplar/live/export_page.h>
 #include <exemplar/live/server.h>
 
-#include <CLI/CLI.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
 #include <deal.II/base/exceptions.h>
@@ -237,15 +236,13 @@ Exit status:
 
     /// CLI11's message, with own words for unknown options; without the full stop.
     std::string
-    in_own_words(const CLI::ParseError &error)
+    in_own_words(const CLI::App &app, const CLI::ParseError &error)
     {
-      const std::string what = error.what(), of_extras = "not expected: ";
-      const std::size_t begin = what.find(of_extras);
-      if (dynamic_cast<const CLI::ExtrasError *>(&error) == nullptr || begin == std::string::npos)
-        return what;
-      std::string option = what.substr(begin + of_extras.size());
-      option.resize(std::min(option.find_first_of(" ="), option.size()));
-      std::string message = in_quotes(option) + " is not understood by exemplar live";
+      const std::vector<std::string> unknown = app.remaining(true);
+      if (unknown.empty())
+        return error.what();
+      const std::string option  = unknown.front().substr(0, unknown.front().find('='));
+      const std::string message = in_quotes(option) + " is not understood by exemplar live";
       if (option == "--output" || option == "--session")
         return message
                + ". What is done is recorded by --record DIRECTORY, as a scene that exemplar runs";
@@ -254,8 +251,7 @@ Exit status:
                + ". Without the word live: exemplar SCENE.prm --validate or --resume; exemplar "
                  "export OUTPUT --html FILE.html";
       const std::string nearest
-          = nearest_word(option, { "--set", "--port", "--bind", "--allow-host", "--record",
-                                   "--threads", "--until-input-ends" });
+          = suggested_option(option, declared_options(*app.get_subcommand("live")));
       return nearest.empty() ? message : message + ". Did you mean '" + nearest + "'?";
     }
 
@@ -287,7 +283,7 @@ Exit status:
     }
     catch (const CLI::ParseError &error)
     {
-      std::cerr << "exemplar: " << in_own_words(error)
+      std::cerr << "exemplar: " << in_own_words(app, error)
                 << ". exemplar live --help lists the options." << std::endl;
       return 1;
     }

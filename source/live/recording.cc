@@ -3,6 +3,7 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/text_file.h>
+#include <exemplar/base/words.h>
 #include <exemplar/live/recording.h>
 #include <exemplar/run/output/output_directory.h>
 
@@ -76,7 +77,7 @@ namespace Exemplar::Live
       {
         const std::string name = entry.path().filename().string();
         if (name.size() <= begin.size() + end.size() || name.compare(0, begin.size(), begin) != 0
-            || name.compare(name.size() - end.size(), end.size(), end) != 0)
+            || !ends_with(name, end))
           continue;
         const auto number = decimal_number<unsigned int>(
             name.substr(begin.size(), name.size() - begin.size() - end.size()));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Language: https://gmsh.info/doc/texinfo/gmsh.html, "Gmsh scripting language".
+#include <exemplar/base/words.h>
 #include <exemplar/mesh/geo_script.h>
 
 #include <set>
@@ -40,13 +41,6 @@ namespace Exemplar
           return true; // not as expected: it may be anything
       }
       return geo_token(script, i + 1).text != ";";
-    }
-
-    bool
-    ends_with(const std::string &text, const std::string &end)
-    {
-      return text.size() >= end.size()
-             && text.compare(text.size() - end.size(), end.size(), end) == 0;
     }
 
     /// Why the word at a place is refused; empty if it is not.

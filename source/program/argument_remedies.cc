@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/declared_options.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
-#include <exemplar/base/nearest_word.h>
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/argument_remedies.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
 #include <filesystem>
@@ -106,20 +105,8 @@ namespace Exemplar
         else
           result.positional.push_back(word);
       }
-      for (const CLI::Option *option : present->get_options())
-        for (const std::string &name : option->get_lnames())
-          result.options.push_back("--" + name);
+      result.options = declared_options(*present);
       return result;
-    }
-
-    std::string
-    suggested_option(const std::string &unknown, const Words &options)
-    {
-      const std::string beginning = unknown.substr(unknown.find_first_not_of('-'));
-      for (const std::string &option : options) // such as -o or --out for --output
-        if (option.compare(2, beginning.size(), beginning) == 0)
-          return option;
-      return nearest_word(unknown, options);
     }
 
     /// What to do instead of giving a command an option of another command.

@@ -87,22 +87,6 @@ namespace Exemplar::Python
                   [&forces](Problem &problem) { problem.set_nodal_forces(forces); });
     }
 
-    void
-    set_damping(HeldProblem &held, const char *name, const py::object &object)
-    {
-      const double      value = single_number(object, name);
-      const std::string which = name;
-      held.change(which,
-                  [&](Problem &problem)
-                  {
-                    const TimeParameters &time = problem.parameters.time;
-                    if (which == "mass_damping")
-                      problem.set_damping(value, time.stiffness_damping);
-                    else
-                      problem.set_damping(time.mass_damping, value);
-                  });
-    }
-
     /// A motion that leaves nodes where they are.
     Motion
     stay_here(const Problem &problem, const std::vector<unsigned int> &nodes)
@@ -257,20 +241,25 @@ namespace Exemplar::Python
     }
 
     void
-    add_damping(ProblemClass &problem)
+    add_damping(ProblemClass     &problem,
+                const char *const name,
+                double TimeParameters::*const member,
+                const char *const             doc)
     {
       problem.def_property(
-          "mass_damping",
-          [](const HeldProblem &held) { return held.get().parameters.time.mass_damping; },
-          [](HeldProblem &held, const py::object &value)
-          { set_damping(held, "mass_damping", value); },
-          "Time/Mass damping [1/s], not negative. Setting it raises UserError unless dynamic.");
-      problem.def_property(
-          "stiffness_damping",
-          [](const HeldProblem &held) { return held.get().parameters.time.stiffness_damping; },
-          [](HeldProblem &held, const py::object &value)
-          { set_damping(held, "stiffness_damping", value); },
-          "Time/Stiffness damping [s], not negative. Setting it raises UserError unless dynamic.");
+          name, [member](const HeldProblem &held) { return held.get().parameters.time.*member; },
+          [name, member](HeldProblem &held, const py::object &object)
+          {
+            const double value = single_number(object, name);
+            held.change(name,
+                        [&](Problem &changed)
+                        {
+                          TimeParameters time = changed.parameters.time;
+                          time.*member        = value;
+                          changed.set_damping(time.mass_damping, time.stiffness_damping);
+                        });
+          },
+          doc);
     }
 
     void
@@ -309,7 +298,12 @@ namespace Exemplar::Python
   {
     add_material(problem);
     add_loads(problem);
-    add_damping(problem);
+    add_damping(
+        problem, "mass_damping", &TimeParameters::mass_damping,
+        "Time/Mass damping [1/s], not negative. Setting it raises UserError unless dynamic.");
+    add_damping(
+        problem, "stiffness_damping", &TimeParameters::stiffness_damping,
+        "Time/Stiffness damping [s], not negative. Setting it raises UserError unless dynamic.");
     add_handles(problem);
     problem.def(
         "set_pose", &set_pose, py::arg("i"), py::arg("positions"),

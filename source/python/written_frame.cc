@@ -48,7 +48,7 @@ namespace Exemplar::Python
     finite_frame(Problem &problem)
     {
       Frame frame = frame_of(problem);
-      if (const std::string what = what_is_not_finite(frame.cells); !what.empty())
+      if (const std::string what = what_is_not_finite(frame); !what.empty())
         throw UserError("write(file): the frame would hold " + what
                         + " that are not finite numbers. Take smaller steps, and look at what "
                           "handles and loads do.");

@@ -308,6 +308,7 @@ COMMANDS = [
     (["live", "scene.prm", "--output", "x"], ["'--output'", "--record DIRECTORY"]),
     (["live", "scene.prm", "--validate"], ["'--validate'", "exemplar SCENE.prm --validate"]),
     (["live", "scene.prm", "--prot", "1"], ["'--prot'", "Did you mean '--port'"]),
+    (["live", "scene.prm", "--until"], ["'--until'", "Did you mean '--until-input-ends'"]),
     (["live", "dynamic.prm", "--bind", "localhost"], ["'localhost' is no address of numbers", "127.0.0.1"]),
 ]
 

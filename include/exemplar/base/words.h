@@ -11,6 +11,9 @@ namespace Exemplar
   std::string
   trim(const std::string &text);
 
+  bool
+  ends_with(const std::string &text, const std::string &end);
+
   /// Values separated by a sign, such as expressions by ';', without the blanks around them.
   std::vector<std::string>
   split_trimmed(const std::string &text, char separator);

@@ -82,10 +82,6 @@ namespace Exemplar
     {
       return law() == CellLaw::frozen;
     }
-
-  private:
-    void
-    check_neo_hookean() const;
   };
 } // namespace Exemplar
 

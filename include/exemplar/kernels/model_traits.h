@@ -44,11 +44,22 @@ namespace Exemplar
   /// A combination that a law refuses.
   struct Refusal
   {
-    Beside      beside;
-    const char *words; ///< behind the law's key, with the remedy; {} stands for that key
-    const char *constant
-        = nullptr; ///< refused only where this constant of the law is greater than 0, and its key
-                   ///< stands for the law's
+    Beside beside;
+
+    /// Behind the law's key, with the remedy; {} stands for the assignment without which no cell has
+    /// the law.
+    const char *words;
+
+    /// Refused only where this constant of the law is greater than 0, and its key stands for the
+    /// law's.
+    const char *constant = nullptr;
+  };
+
+  /// The row of a law that takes examples with the elasticity of the material alone.
+  inline constexpr Refusal no_own_elasticity = {
+    Beside::own_elasticity,
+    " is for examples with the elasticity of the material. Remove Examples/Example modulus and "
+    "Example Poisson ratio, or set {}."
   };
 
   /// Properties of a law of cells, beside its formulas; each law has them as a constant `traits`.

@@ -138,27 +138,22 @@ namespace Exemplar
                                             ModelTraits::not_remembered,
                                             /* has_volumetric_energy */ true };
 
-    static constexpr std::array<Refusal, 6> refusals = {
-      { { Beside::interpolation, " is for static and dynamic scenes: in an interpolation examples "
-                                 "alone act. Choose another Scene, or "
-                                 "set Model/Background = corotational." },
-        { Beside::grain, " is for isotropic materials. Remove the fibres (Material/Fibre stiffness "
-                         "= 0, Orthotropy empty), or "
-                         "set Model/Background = corotational." },
-        { Beside::memory, " is for elastic materials. Set Material/Yield stress = 0 and Relaxation "
-                          "time = 0, or set "
-                          "Model/Background = corotational." },
-        { Beside::unblended_examples,
-          " with examples needs Examples/Energy = blended, in which the body has an energy of its "
-          "own beside the "
-          "wish to be like the examples. Set that, or set Model/Background = corotational." },
-        { Beside::own_elasticity, " is for examples with the elasticity of the material. Remove "
-                                  "Examples/Example modulus and Example "
-                                  "Poisson ratio, or set Model/Background = corotational." },
-        { Beside::varying_importance, " is for bodies in which examples are equally important "
-                                      "everywhere. Set Material/Importance factor = "
-                                      "1, or set Model/Background = corotational." } }
-    };
+    static constexpr std::array<Refusal, 7> refusals
+        = { { { Beside::other_strain, " is for Model/Strain = corotational with Model/Gradient = "
+                                      "consistent. Set these two, or {}." },
+              { Beside::interpolation, " is for static and dynamic scenes: in an interpolation "
+                                       "examples alone act. Choose another Scene, or set {}." },
+              { Beside::grain, " is for isotropic materials. Remove the fibres (Material/Fibre "
+                               "stiffness = 0, Orthotropy empty), or set {}." },
+              { Beside::memory, " is for elastic materials. Set Material/Yield stress = 0 and "
+                                "Relaxation time = 0, or set {}." },
+              { Beside::unblended_examples,
+                " with examples needs Examples/Energy = blended, in which the body has an energy "
+                "of its own beside the wish to be like the examples. Set that, or set {}." },
+              no_own_elasticity,
+              { Beside::varying_importance,
+                " is for bodies in which examples are equally important everywhere. Set "
+                "Material/Importance factor = 1, or set {}." } } };
 
     NeoHookeanCell(const CellMaterial<Number> &material,
                    const Matrix3<Number>      &rotation,

@@ -46,29 +46,24 @@ namespace Exemplar
 
     static constexpr std::array<Refusal, 7> refusals = {
       { { Beside::interpolation, " is for static and dynamic scenes: in an interpolation nothing "
-                                 "pulls at the body. Set it to 0, or "
-                                 "choose another Scene." },
-        { Beside::orthotropy, " is for materials without orthotropy, as what yields is isotropic; "
-                              "fibres may go through it (Fibre "
-                              "stiffness). Give the two to different regions, or set {} = 0." },
-        { Beside::other_strain, " is for Model/Strain = corotational with Model/Gradient = "
-                                "consistent, whose cells know a plastic "
-                                "strain in their own frame. Set these two, or {} = 0." },
-        { Beside::unblended_examples, " with examples needs Examples/Energy = blended, in which "
-                                      "the body has an energy of its own beside the "
-                                      "wish to be like the examples, so that yielding does not "
-                                      "depend on Examples/Importance. Set "
-                                      "Examples/Energy = blended, or {} = 0." },
-        { Beside::own_elasticity, " is for examples with the elasticity of the material. Remove "
-                                  "Examples/Example modulus and Example "
-                                  "Poisson ratio, or set {} = 0." },
-        { Beside::varying_importance, " is for bodies in which examples are equally important "
-                                      "everywhere, as they share the energy with what "
-                                      "yields. Set Material/Importance factor = 1, or {} = 0." },
+                                 "pulls at the body. Set it to 0, or choose another Scene." },
+        { Beside::orthotropy,
+          " is for materials without orthotropy, as what yields is isotropic; fibres may go "
+          "through it (Fibre stiffness). Give the two to different regions, or set {}." },
+        { Beside::other_strain,
+          " is for Model/Strain = corotational with Model/Gradient = consistent, whose cells know "
+          "a plastic strain in their own frame. Set these two, or {}." },
+        { Beside::unblended_examples,
+          " with examples needs Examples/Energy = blended, in which the body has an energy of its "
+          "own beside the wish to be like the examples, so that yielding does not depend on "
+          "Examples/Importance. Set Examples/Energy = blended, or {}." },
+        no_own_elasticity,
+        { Beside::varying_importance,
+          " is for bodies in which examples are equally important everywhere, as they share the "
+          "energy with what yields. Set Material/Importance factor = 1, or {}." },
         { Beside::statics,
           " lets plastic strain grow in the time of a dynamic scene, but this scene is static: its "
-          "increments "
-          "have no length in time. Set {} = 0, or Scene = dynamic.",
+          "increments have no length in time. Set {}, or Scene = dynamic.",
           Constants::own_constants[3].name } }
     };
 

@@ -28,8 +28,8 @@ namespace Exemplar
     static constexpr std::array<LawConstant, 2> own_constants
         = { { { "Relaxation time",
                 "tau [s]: after it 63 % of what relaxes of the stress of a strain that is held has "
-                "gone. Young's modulus "
-                "and Poisson's ratio are those of fast motions. 0: the material is elastic.",
+                "gone. Young's modulus and Poisson's ratio are those of fast motions. 0: the "
+                "material is elastic.",
                 0. },
               { "Relaxing share",
                 "r [-]: this part of the shear modulus relaxes. Where there is a Relaxation time.",
@@ -87,21 +87,19 @@ namespace Exemplar
                     Constants::own_constants[0].name);
 
     static constexpr std::array<Refusal, 6> refusals = {
-      { { Beside::interpolation, " is for static and dynamic scenes: an interpolation has no time "
-                                 "in which anything relaxes. Set it to "
-                                 "0, or choose another Scene." },
+      { { Beside::interpolation,
+          " is for static and dynamic scenes: an interpolation has no time in which anything "
+          "relaxes. Set it to 0, or choose another Scene." },
         { Beside::fibres,
-          " is for materials without fibres. Give the two to different regions, or set {} = 0." },
-        { Beside::orthotropy, " is for materials without orthotropy. Give the two to different "
-                              "regions, or set {} = 0." },
-        { Beside::other_memory, " is for materials that do not yield. Give the two to different "
-                                "regions, or set {} = 0." },
-        { Beside::other_strain, " is for Model/Strain = corotational with Model/Gradient = "
-                                "consistent, whose cells know the strain that "
-                                "has relaxed in their own frame. Set these two, or {} = 0." },
-        { Beside::own_elasticity, " is for examples with the elasticity of the material. Remove "
-                                  "Examples/Example modulus and Example "
-                                  "Poisson ratio, or set {} = 0." } }
+          " is for materials without fibres. Give the two to different regions, or set {}." },
+        { Beside::orthotropy,
+          " is for materials without orthotropy. Give the two to different regions, or set {}." },
+        { Beside::other_memory,
+          " is for materials that do not yield. Give the two to different regions, or set {}." },
+        { Beside::other_strain,
+          " is for Model/Strain = corotational with Model/Gradient = consistent, whose cells know "
+          "the strain that has relaxed in their own frame. Set these two, or {}." },
+        no_own_elasticity }
     };
 
     ViscoelasticCell(const Constants        &constants,

@@ -8,32 +8,12 @@
 
 #include <cstdint>
 #include <memory>
-#include <sstream>
 
 namespace Exemplar
 {
   namespace
   {
     constexpr std::uint8_t vtk_polygon = 7;
-
-    std::string
-    polygons_of(const SurfaceMesh &surface)
-    {
-      std::vector<std::int32_t> connectivity, offsets;
-      for (const auto &face : surface.faces)
-      {
-        connectivity.insert(connectivity.end(), face.begin(), face.end());
-        offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
-      }
-      const std::vector<std::uint8_t> types(surface.faces.size(), vtk_polygon);
-      std::ostringstream              out;
-      out << "<Cells>\n";
-      write_array(out, "Int32", "connectivity", 1, connectivity.data(), connectivity.size());
-      write_array(out, "Int32", "offsets", 1, offsets.data(), offsets.size());
-      write_array(out, "UInt8", "types", 1, types.data(), types.size());
-      out << "</Cells>\n";
-      return out.str();
-    }
 
     /// Writes a carried surface, in metres as the body's frames.
     class CarriedVtuWriter : public FrameWriter
@@ -44,7 +24,10 @@ namespace Exemplar
             piece(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
                               surface.vertices.size(),
                               surface.faces.size())),
-            polygons(polygons_of(surface))
+            polygons(cells_of_grid(
+                surface.faces.size(), vtk_polygon, [&](const unsigned int face) -> const auto & {
+                  return surface.faces[face];
+                }))
       {
       }
 

@@ -25,24 +25,8 @@ namespace Exemplar
     std::string
     cells_of(const FESpace &fe_space)
     {
-      const ElementTraits      &traits = traits_of(fe_space.element());
-      std::vector<std::int32_t> connectivity, offsets;
-      connectivity.reserve(traits.nodes_per_cell * fe_space.n_cells());
-      offsets.reserve(fe_space.n_cells());
-      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      {
-        const auto nodes = fe_space.nodes(cell);
-        connectivity.insert(connectivity.end(), nodes.begin(), nodes.end());
-        offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
-      }
-      const std::vector<std::uint8_t> types(fe_space.n_cells(), traits.vtk_type);
-      std::ostringstream              out;
-      out << "<Cells>\n";
-      write_array(out, "Int32", "connectivity", 1, connectivity.data(), connectivity.size());
-      write_array(out, "Int32", "offsets", 1, offsets.data(), offsets.size());
-      write_array(out, "UInt8", "types", 1, types.data(), types.size());
-      out << "</Cells>\n";
-      return out.str();
+      return cells_of_grid(fe_space.n_cells(), traits_of(fe_space.element()).vtk_type,
+                           [&](const unsigned int cell) { return fe_space.nodes(cell); });
     }
 
     std::string

@@ -16,15 +16,9 @@ namespace Exemplar
     choose_nodes(const SceneParameters &scene, const Mesh &mesh, const NamedNodes &named)
     {
       NamedNodes nodes;
-      const auto add = [&](const Selection &selection, const std::string &key)
-      {
+      for (const auto &[selection, key] : scene.selects())
         if (nodes.count(selection.text) == 0)
           nodes[selection.text] = selection.choose(mesh, key, named);
-      };
-      for (const HandleParameters &handle : scene.handles)
-        add(handle.select, "Handles/" + handle.name + "/Select");
-      for (const LoadParameters &load : scene.loads.named)
-        add(load.select, "Loads/" + load.name + "/Select");
       return nodes;
     }
 

@@ -58,12 +58,8 @@ namespace Exemplar
           add_carried();
         if (inputs.mesh.nodes.empty())
           inputs.mesh = is_to_be_filled(scene.mesh) ? surfaces.make_mesh() : load_mesh(scene.mesh);
-        for (const HandleParameters &handle : scene.handles)
-          add_nodes(handle.select, "Handles/" + handle.name);
-        for (const LoadParameters &load : scene.loads.named)
-          add_nodes(load.select, "Loads/" + load.name);
-        for (const auto &[selection, key] : scene.material.selections())
-          add_nodes(selection, key);
+        for (const auto &[selection, key] : scene.selections())
+          add_nodes(selection.file(), key);
         for_each_pose([this](const std::string &file) { add(file); });
         inputs.made      = surfaces.get_made();
         inputs.geo_walls = inputs.mesh.geo_walls;
@@ -122,11 +118,10 @@ namespace Exemplar
       }
 
       void
-      add_nodes(const Selection &selection, const std::string &key)
+      add_nodes(const std::string &file, const std::string &key)
       {
-        const std::string file = selection.file();
         if (!file.empty() && inputs.nodes.count(file) == 0)
-          inputs.nodes[file] = read_nodes(file, inputs.mesh, name, key + "/Select");
+          inputs.nodes[file] = read_nodes(file, inputs.mesh, name, key);
       }
 
       /// Read the surface, its maps and the caches that move handles.
@@ -142,14 +137,10 @@ namespace Exemplar
         add_map(scene.material.importance_map, "Material/Importance map");
         for (const std::string &map : scene.material.fibre_direction_maps)
           add_map(map, "Material/Fibre direction maps");
-        for (const auto &[selection, key] : scene.material.selections())
-          add_map(selection.map(), key);
         if (scene.examples.are_painted())
           for (const std::string &map : scene.examples.weight_maps)
             add_map(map, "Examples/Weight maps");
         for (const HandleParameters &handle : scene.handles)
-        {
-          add_map(handle.select.map(), "Handles/" + handle.name + "/Select");
           if (!handle.follow_cache.empty() && inputs.caches.count(handle.name) == 0)
             inputs.caches[handle.name]
                 = under_key("Handles/" + handle.name + "/Follow cache",
@@ -158,9 +149,8 @@ namespace Exemplar
                               return open_point_cache(handle.follow_cache, handle.frames_per_second,
                                                       *inputs.surface, scene.mesh.surface_file());
                             });
-        }
-        for (const LoadParameters &load : scene.loads.named)
-          add_map(load.select.map(), "Loads/" + load.name + "/Select");
+        for (const auto &[selection, key] : scene.selections())
+          add_map(selection.map(), key);
       }
 
       void

@@ -169,15 +169,23 @@ namespace Exemplar
       return { from.selector.at_cells(values), use.is_factor };
     }
 
+    /// A map whose values are used as they are.
+    MapName
+    plain_map(const std::string &text, const std::string &key)
+    {
+      MapName map = split_map_name(text, key);
+      if (!map.rest.empty())
+        throw UserError(key + ": " + in_quotes(text)
+                        + " is not understood. Give FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN].");
+      return map;
+    }
+
     /// One component of the directions of fibres.
     std::vector<double>
     component(const SurfaceSources &from, const std::string &text)
     {
-      const std::string key = "Material/Fibre direction maps";
-      const MapName     map = split_map_name(text, key);
-      if (!map.rest.empty())
-        throw UserError(key + ": " + in_quotes(text)
-                        + " is not understood. Give FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN].");
+      const std::string          key    = "Material/Fibre direction maps";
+      const MapName              map    = plain_map(text, key);
       const std::vector<double> &values = find_map(map, from.inputs, key);
       for (std::size_t v = 0; v < values.size(); ++v)
         if (!std::isfinite(values[v]))
@@ -190,10 +198,7 @@ namespace Exemplar
     std::vector<double>
     share(const SurfaceSources &from, const std::string &text, const std::string &key)
     {
-      const MapName map = split_map_name(text, key);
-      if (!map.rest.empty())
-        throw UserError(key + ": " + in_quotes(text)
-                        + " is not understood. Give FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN].");
+      const MapName       map     = plain_map(text, key);
       std::vector<double> values  = find_map(map, from.inputs, key);
       double              maximum = 0.;
       for (const double value : values)

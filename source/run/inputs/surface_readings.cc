@@ -9,27 +9,17 @@ namespace Exemplar
   namespace
   {
     void
-    add_nodes(const SurfaceSources &from,
-              const Selection      &selection,
-              const std::string    &key,
-              NamedNodes           &nodes)
-    {
-      if (selection.is_of_surface() && nodes.count(selection.text) == 0)
-        nodes[selection.text] = from.selector.select(selection.text, key, from.inputs.maps);
-    }
-
-    void
     add_motion(const SurfaceSources   &from,
                const HandleParameters &handle,
-               const std::string      &key,
                SurfaceReadings        &readings)
     {
       if (handle.follow_cache.empty())
         return;
       NamedNodes named = from.inputs.nodes;
       named.insert(readings.nodes.begin(), readings.nodes.end());
-      readings.motions[handle.name]
-          = motion_by_cache(from, handle, handle.select.choose(from.mesh, key, named));
+      readings.motions[handle.name] = motion_by_cache(
+          from, handle,
+          handle.select.choose(from.mesh, "Handles/" + handle.name + "/Select", named));
     }
   } // namespace
 
@@ -47,16 +37,11 @@ namespace Exemplar
     const SurfaceSources  from{ scene, mesh, inputs, selector, readings.warnings };
     readings.material = read_painted_material(from);
     readings.shares   = read_painted_shares(from);
+    for (const auto &[selection, key] : scene.selections())
+      if (selection.is_of_surface() && readings.nodes.count(selection.text) == 0)
+        readings.nodes[selection.text] = selector.select(selection.text, key, inputs.maps);
     for (const HandleParameters &handle : scene.handles)
-    {
-      const std::string key = "Handles/" + handle.name + "/Select";
-      add_nodes(from, handle.select, key, readings.nodes);
-      add_motion(from, handle, key, readings);
-    }
-    for (const LoadParameters &load : scene.loads.named)
-      add_nodes(from, load.select, "Loads/" + load.name + "/Select", readings.nodes);
-    for (const auto &[selection, key] : scene.material.selections())
-      add_nodes(from, selection, key, readings.nodes);
+      add_motion(from, handle, readings);
     return readings;
   }
 } // namespace Exemplar

@@ -185,7 +185,7 @@ namespace Exemplar
   void
   FrameOutput::refuse_what_is_not_finite(const Frame &frame)
   {
-    if (const std::string what = what_is_not_finite(frame.cells); !what.empty())
+    if (const std::string what = what_is_not_finite(frame); !what.empty())
       throw SolverFailure(
           fmt::format("The frame of step {} would hold {} that are not finite numbers. Take "
                       "smaller steps, and look at what handles, loads and Initial do.",

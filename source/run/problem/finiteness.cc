@@ -16,13 +16,6 @@ namespace Exemplar
     {
       return max_entry(numbers.begin(), numbers.end()) < 1e150;
     }
-
-    /// The text of the first process that has one; empty if all are finite in all processes.
-    std::string
-    agreed_by_all(const std::string &what, const Exchange &exchange)
-    {
-      return exchange.first_text(what);
-    }
   } // namespace
 
   std::string
@@ -59,18 +52,32 @@ namespace Exemplar
     return "";
   }
 
+  std::string
+  what_is_not_finite(const Frame &frame)
+  {
+    const auto are_finite_values
+        = [](const Vector &x) { return std::isfinite(max_entry(x.begin(), x.end())); };
+    if (!are_finite_values(frame.positions))
+      return "positions";
+    if (!are_finite_values(frame.velocities))
+      return "velocities";
+    for (const auto &[name, values] : frame.fields)
+      if (!are_finite_values(values))
+        return "values of " + name;
+    return what_is_not_finite(frame.cells);
+  }
+
   void
   check_start(Problem &problem)
   {
     const State          &state      = problem.state;
     const Evaluation     &evaluation = problem.evaluation;
     IncrementalPotential &potential  = problem.potential;
-    const auto            agreed
-        = [&](const std::string &found) { return agreed_by_all(found, problem.body.exchange()); };
+    const Exchange       &exchange   = problem.body.exchange();
     const CellResults cells = potential.get_cells().cell_results(state.positions, state.weights);
-    std::string       what  = agreed(what_is_not_finite(state, evaluation));
+    std::string       what  = exchange.first_text(what_is_not_finite(state, evaluation));
     if (what.empty())
-      what = agreed(what_is_not_finite(cells));
+      what = exchange.first_text(what_is_not_finite(cells));
     if (what.empty() && problem.actions.mass != nullptr
         && !std::isfinite(problem.actions.mass->motion_sums(state).kinetic_energy))
       what = "kinetic energies";
@@ -93,17 +100,17 @@ namespace Exemplar
   void
   refuse_what_is_not_finite(Problem &problem, const State &next, SolveReport &report)
   {
-    const Body &body = problem.body;
-    std::string what = std::isfinite(report.residual) ? what_is_not_finite(next, problem.evaluation)
-                                                      : "residuals";
+    const Body     &body     = problem.body;
+    const Exchange &exchange = body.exchange();
+    std::string     what     = exchange.first_text(std::isfinite(report.residual)
+                                                       ? what_is_not_finite(next, problem.evaluation)
+                                                       : "residuals");
     // frames hold cubes of such ratios, which may overflow where energies, their squares, do not
     const auto maximum
-        = [&](const Vector &x) { return body.exchange().max(max_entry(x.begin(), x.end())); };
-    what = agreed_by_all(what, body.exchange());
+        = [&](const Vector &x) { return exchange.max(max_entry(x.begin(), x.end())); };
     if (what.empty() && !(maximum(next.positions) < 1e60 * maximum(body.fe_space.rest_positions())))
-      what = agreed_by_all(what_is_not_finite(problem.potential.get_cells().cell_results(
-                               next.positions, next.weights)),
-                           body.exchange());
+      what = exchange.first_text(what_is_not_finite(
+          problem.potential.get_cells().cell_results(next.positions, next.weights)));
     if (what.empty())
       return;
     report.status  = SolveStatus::failed;

@@ -116,9 +116,8 @@ namespace Exemplar
   void
   Laboratory::follow_parameters()
   {
-    if (!weights.are_prescribed())
-      weights.set_parameters(problem.parameters.examples,
-                             unit_energy_of_examples(problem.body.fe_space, problem.body.material));
+    weights.set_parameters(problem.parameters.examples,
+                           unit_energy_of_examples(problem.body.fe_space, problem.body.material));
     potential.follow_parameters();
   }
 

@@ -29,16 +29,6 @@ namespace Exemplar
              && traits_of(problem.parameters.model.law()).is_frame_indifferent;
     }
 
-    /// Let handles hold as in a step that begins at this time.
-    void
-    follow_time(Problem &problem, const double time)
-    {
-      if (!problem.constraints.follow_time(time, problem.parameters, problem.body))
-        return;
-      problem.potential.get_tangent().renew_pattern();
-      problem.solver->forget(); // its memory is of other unknowns
-    }
-
     /// An interpolation starts at the example of greatest weight, unless Initial gives a pose.
     void
     start_interpolation(const InitialParameters &initial, const ExamplePoses &poses, State &state)
@@ -128,7 +118,7 @@ namespace Exemplar
     if (session != nullptr)
       session->begin_step();
     check_weights(*this, interval);
-    follow_time(*this, state.time);
+    follow_time(state.time);
     constraints.handles.begin_step(state.time, state.positions);
     State next = state;
     next.step  = state.step + 1;
@@ -180,11 +170,10 @@ namespace Exemplar
       session->catch_up(earlier.step);
     state = earlier;
     solver->forget();
-    follow_time(*this, state.time);
+    follow_time(state.time);
     if (!solver_memory.empty())
     {
-      follow_time(*this,
-                  time_axis.time(std::max(state.step, 1U) - 1)); // memory is of the last step
+      follow_time(time_axis.time(std::max(state.step, 1U) - 1)); // memory is of the last step
       std::istringstream              bytes(solver_memory);
       boost::archive::binary_iarchive archive(bytes);
       solver->load(archive);

@@ -14,33 +14,73 @@ namespace Exemplar
 {
   namespace
   {
-    /// Make Loads if there are none. Returns whether there were none.
-    bool
-    make_loads(Problem &problem)
+    /// What has changed, and parts of a problem follow.
+    enum Change : unsigned int
     {
-      if (problem.parameters.scene == SceneKind::interpolation)
-        throw UserError(problem.parameters.name
-                        + ": an interpolation has no loads. Set Scene = static or dynamic.");
-      std::unique_ptr<Loads> &loads = problem.actions.loads;
-      if (loads != nullptr)
-        return false;
-      loads = std::make_unique<Loads>(problem.parameters.loads, problem.body.mesh,
-                                      problem.body.fe_space, problem.body.material, NamedNodes(),
-                                      problem.parameters.material.mass_matrix);
-      problem.potential.add_term(std::make_unique<LoadTerm>(*loads, problem.body.fe_space));
-      return true;
+      new_density    = 1,
+      new_elasticity = 2,
+      new_examples   = 4, ///< poses or importance
+      new_handles    = 8,
+      new_loads      = 16,
+      new_terms      = 32,
+      new_damping    = 64
+    };
+
+    void
+    refuse_interpolation(const SceneParameters &scene, const std::string &what)
+    {
+      if (scene.scene == SceneKind::interpolation)
+        throw UserError(scene.name + ": an interpolation has no " + what);
     }
   } // namespace
 
   void
+  Problem::refresh(const unsigned int changed)
+  {
+    const unsigned int new_energy = new_density | new_elasticity | new_examples;
+    if (changed & new_energy)
+      body.follow_material();
+    if (changed & new_density && actions.mass != nullptr)
+      actions.mass->set_material(body.fe_space, body.material);
+    if (changed & new_density && actions.loads != nullptr)
+      actions.loads->set_gravity(parameters.loads.gravity, body.fe_space, body.material);
+    if (changed & new_elasticity)
+      examples.poses.set_material(body.cell_material, body.patches);
+    if (changed & new_examples)
+      examples.poses.set_parameters(parameters.examples.importance, body.cell_material,
+                                    body.patches);
+    if (changed & new_energy)
+    {
+      examples.weights.set_parameters(parameters.examples,
+                                      unit_energy_of_examples(body.fe_space, body.material));
+      potential.follow_parameters();
+      if (lab != nullptr)
+        lab->follow_parameters();
+    }
+    if (changed & new_terms)
+      lab.reset();
+    if (changed & (new_handles | new_terms))
+      potential.get_tangent().renew_pattern();
+    if (changed & ~new_loads)
+      solver->forget(); // its memory is of another matrix
+    if (changed & (new_energy | new_loads | new_terms))
+      start(state);
+  }
+
+  void
   Problem::change_handles(const std::function<void(Handles &)> &change)
   {
-    if (constraints.support)
-      throw UserError(parameters.name + ": an interpolation has no handles to change.");
+    refuse_interpolation(parameters, "handles to change.");
     constraints.change_handles(change, parameters, body);
     changes.count("grab() or let_go()");
-    potential.get_tangent().renew_pattern();
-    solver->forget(); // its memory is of other unknowns
+    refresh(new_handles);
+  }
+
+  void
+  Problem::follow_time(const double time)
+  {
+    if (constraints.follow_time(time, parameters, body))
+      refresh(new_handles);
   }
 
   void
@@ -48,14 +88,10 @@ namespace Exemplar
   {
     body.material = body.material.with(changed);
     changes.count("set_material()");
-    body.follow_material();
-    if (actions.mass != nullptr && !changed.density.empty())
-      actions.mass->set_material(body.fe_space, body.material);
-    if (actions.loads != nullptr && !changed.density.empty())
-      actions.loads->set_gravity(parameters.loads.gravity, body.fe_space, body.material);
-    if (!changed.youngs_modulus.empty() || !changed.poissons_ratio.empty())
-      examples.poses.set_material(body.cell_material, body.patches);
-    follow_parameters();
+    const bool has_same_elasticity
+        = changed.youngs_modulus.empty() && changed.poissons_ratio.empty();
+    refresh((changed.density.empty() ? 0 : new_density)
+            | (has_same_elasticity ? 0 : new_elasticity));
   }
 
   void
@@ -79,9 +115,7 @@ namespace Exemplar
     parameters.examples.importance = importance;
     if (body.material.has_elasticity_of_examples())
       body.material = body.material.with_examples(parameters.examples.elasticity(), importance);
-    body.follow_material();
-    examples.poses.set_parameters(importance, body.cell_material, body.patches);
-    follow_parameters();
+    refresh(new_examples);
   }
 
   void
@@ -92,41 +126,46 @@ namespace Exemplar
   }
 
   void
+  Problem::require_loads()
+  {
+    refuse_interpolation(parameters, "loads. Set Scene = static or dynamic.");
+    std::unique_ptr<Loads> &loads = actions.loads;
+    if (loads != nullptr)
+      return;
+    loads = std::make_unique<Loads>(parameters.loads, body.mesh, body.fe_space, body.material,
+                                    NamedNodes(), parameters.material.mass_matrix);
+    potential.add_term(std::make_unique<LoadTerm>(*loads, body.fe_space));
+    lab.reset(); // has no such term
+  }
+
+  void
   Problem::set_gravity(const std::array<double, 3> &acceleration)
   {
-    if (make_loads(*this))
-      lab.reset(); // has no such term
+    require_loads();
     changes.count("gravity");
     actions.loads->set_gravity(acceleration, body.fe_space, body.material);
     parameters.loads.gravity = acceleration;
-    start(state);
+    refresh(new_loads);
   }
 
   void
   Problem::set_nodal_forces(Vector forces)
   {
-    if (make_loads(*this))
-      lab.reset(); // has no such term
+    require_loads();
     changes.count("nodal_forces");
     actions.loads->set_nodal_forces(std::move(forces));
-    start(state);
+    refresh(new_loads);
   }
 
   void
   Problem::add_term(const MakeTerm &make)
   {
-    if (parameters.scene == SceneKind::interpolation)
-      throw UserError(parameters.name
-                      + ": an interpolation has no terms of one's own. Set Scene = static or "
-                        "dynamic.");
+    refuse_interpolation(parameters, "terms of one's own. Set Scene = static or dynamic.");
     std::unique_ptr<PotentialTerm> term = make();
     changes.count("add_term()");
     actions.own_terms.push_back({ make, term.get() });
     potential.add_term(std::move(term));
-    potential.get_tangent().renew_pattern();
-    solver->forget(); // its factors are of another matrix
-    lab.reset();
-    start(state);
+    refresh(new_terms);
   }
 
   Laboratory &
@@ -157,9 +196,7 @@ namespace Exemplar
     const auto change_to = [&](const std::vector<dealii::Point<3>> &pose)
     {
       examples.poses.set_pose(i, pose);
-      examples.poses.set_parameters(parameters.examples.importance, body.cell_material,
-                                    body.patches);
-      follow_parameters();
+      refresh(new_examples);
     };
     try
     {
@@ -187,20 +224,8 @@ namespace Exemplar
     check_damping(mass_damping, stiffness_damping);
     changes.count("mass_damping or stiffness_damping");
     actions.integrator->set_damping(mass_damping, stiffness_damping);
-    solver->forget(); // its memory is of other damping
+    refresh(new_damping);
     parameters.time.mass_damping      = mass_damping;
     parameters.time.stiffness_damping = stiffness_damping;
-  }
-
-  void
-  Problem::follow_parameters()
-  {
-    examples.weights.set_parameters(parameters.examples,
-                                    unit_energy_of_examples(body.fe_space, body.material));
-    potential.follow_parameters();
-    if (lab != nullptr)
-      lab->follow_parameters();
-    solver->forget(); // its factors are of other values
-    start(state);
   }
 } // namespace Exemplar

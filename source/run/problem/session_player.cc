@@ -17,20 +17,9 @@ namespace Exemplar
   } // namespace
 
   const std::map<std::string, SessionPlayer::Action> SessionPlayer::actions
-      = { { "grab", &SessionPlayer::grab },
-          { "move", &SessionPlayer::move },
-          { "release", &SessionPlayer::release },
-          { "hold", &SessionPlayer::hold },
-          { "shift", &SessionPlayer::shift },
-          { "let go", &SessionPlayer::let_go },
-          { "young", &SessionPlayer::set_material },
-          { "poisson", &SessionPlayer::set_material },
-          { "density", &SessionPlayer::set_material },
-          { "importance", &SessionPlayer::set_importance },
-          { "weights", &SessionPlayer::hold_weights },
-          { "gravity", &SessionPlayer::set_gravity },
-          { "damping", &SessionPlayer::set_damping },
-          { "forget", &SessionPlayer::forget } };
+      = { { "grab", &SessionPlayer::grab },       { "move", &SessionPlayer::move },
+          { "release", &SessionPlayer::release }, { "hold", &SessionPlayer::hold },
+          { "shift", &SessionPlayer::shift },     { "let go", &SessionPlayer::let_go } };
 
   SessionPlayer::SessionPlayer(Problem &problem)
       : problem(problem), springs(std::make_shared<Springs>())
@@ -45,7 +34,21 @@ namespace Exemplar
   SessionPlayer::apply(const SessionEvent &event)
   {
     check_form(event, problem.body.mesh.n_nodes(), title_of(event, file));
-    (this->*actions.at(event.what))(event);
+    const std::vector<double> &numbers = event.numbers;
+    if (const auto constants = constants_of(event))
+      problem.set_material(*constants);
+    else if (event.what == "importance")
+      problem.set_importance(numbers[0]);
+    else if (event.what == "weights")
+      problem.hold_weights(numbers);
+    else if (event.what == "gravity")
+      problem.set_gravity({ { numbers[0], numbers[1], numbers[2] } });
+    else if (event.what == "damping")
+      problem.set_damping(numbers[0], numbers[1]);
+    else if (event.what == "forget")
+      problem.resume_from(State(problem.state));
+    else
+      (this->*actions.at(event.what))(event);
   }
 
   void
@@ -150,41 +153,5 @@ namespace Exemplar
   {
     problem.change_handles([&](Handles &handles) { handles.let_go(event.name); });
     places.erase(event.name);
-  }
-
-  void
-  SessionPlayer::set_material(const SessionEvent &event)
-  {
-    problem.set_material(*constants_of(event));
-  }
-
-  void
-  SessionPlayer::set_importance(const SessionEvent &event)
-  {
-    problem.set_importance(event.numbers[0]);
-  }
-
-  void
-  SessionPlayer::hold_weights(const SessionEvent &event)
-  {
-    problem.hold_weights(event.numbers);
-  }
-
-  void
-  SessionPlayer::set_gravity(const SessionEvent &event)
-  {
-    problem.set_gravity({ { event.numbers[0], event.numbers[1], event.numbers[2] } });
-  }
-
-  void
-  SessionPlayer::set_damping(const SessionEvent &event)
-  {
-    problem.set_damping(event.numbers[0], event.numbers[1]);
-  }
-
-  void
-  SessionPlayer::forget(const SessionEvent & /*event*/)
-  {
-    problem.resume_from(State(problem.state));
   }
 } // namespace Exemplar

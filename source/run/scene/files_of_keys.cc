@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/words.h>
 #include <exemplar/body/grain_axes.h>
 #include <exemplar/mesh/map_name.h>
 #include <exemplar/run/scene/files_of_keys.h>
@@ -9,13 +10,6 @@ namespace Exemplar
 {
   namespace
   {
-    bool
-    ends_with(const std::string &text, const std::string &end)
-    {
-      return text.size() >= end.size()
-             && text.compare(text.size() - end.size(), end.size(), end) == 0;
-    }
-
     /// Append the names of the files that a selection reads.
     void
     append_names(const Selection          &selection,

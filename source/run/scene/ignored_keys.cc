@@ -135,15 +135,9 @@ namespace Exemplar
       if (load.force == LoadParameters().force)
         warnings.push_back("Loads/" + load.name + " does nothing: its Force is " + load.force
                            + ". Set Loads/" + load.name + "/Force, or remove it from Loads/Names.");
-    const auto add_doubt = [&](const Selection &selection, const std::string &key)
-    {
+    for (const auto &[selection, key] : scene.selects())
       if (const std::string doubt = selection.doubt(); !doubt.empty())
-        warnings.push_back(key + "/Select = '" + selection.text + "': " + doubt);
-    };
-    for (const HandleParameters &handle : scene.handles)
-      add_doubt(handle.select, "Handles/" + handle.name);
-    for (const LoadParameters &load : scene.loads.named)
-      add_doubt(load.select, "Loads/" + load.name);
+        warnings.push_back(key + " = '" + selection.text + "': " + doubt);
     return warnings;
   }
 } // namespace Exemplar

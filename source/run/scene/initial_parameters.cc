@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/errors.h>
 #include <exemplar/prm/key_table.h>
 #include <exemplar/run/scene/initial_parameters.h>
 
@@ -22,12 +21,5 @@ namespace Exemplar
              "position x, y, z [m].",
              "; ");
     keys.leave_subsection();
-  }
-
-  void
-  InitialParameters::check() const
-  {
-    if (!pose.empty() && !pose_function.empty())
-      throw UserError("Initial/Pose and Initial/Pose function are both given. Keep one of them.");
   }
 } // namespace Exemplar

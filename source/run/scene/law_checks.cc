@@ -22,10 +22,17 @@ namespace Exemplar
                             { return key == nullptr || constants.own.at(key) > 0.; });
     }
 
+    /// Whether constants give cells a law that remembers and is not chosen by `other`.
     bool
-    is_chosen_to_remember(const CellLaw law, const ElasticConstants &constants)
+    have_memory(const ElasticConstants &constants, const char *const other = nullptr)
     {
-      return traits_of(law).n_history > 0 && is_chosen(law, constants);
+      const std::vector<CellLaw> laws = all_laws();
+      return std::any_of(laws.begin(), laws.end(),
+                         [&](const CellLaw law)
+                         {
+                           return traits_of(law).n_history > 0 && is_chosen(law, constants)
+                                  && traits_of(law).chosen_by[0] != other;
+                         });
     }
 
     /// Whether some section gives cells a law that remembers.
@@ -33,24 +40,10 @@ namespace Exemplar
     has_memory(const MaterialParameters &material)
     {
       bool has = false;
-      for (const CellLaw law : all_laws())
-        material.for_each_section(
-            [&](const ElasticConstants &constants, const std::string & /*section*/)
-            { has |= is_chosen_to_remember(law, constants); });
+      material.for_each_section(
+          [&](const ElasticConstants &constants, const std::string & /*section*/)
+          { has |= have_memory(constants); });
       return has;
-    }
-
-    /// Whether constants give cells a law that remembers, other than `law` and its sums with fibres.
-    bool
-    has_other_memory(const CellLaw law, const ElasticConstants &constants)
-    {
-      const std::vector<CellLaw> laws = all_laws();
-      return std::any_of(laws.begin(), laws.end(),
-                         [&](const CellLaw other)
-                         {
-                           return traits_of(other).chosen_by[0] != traits_of(law).chosen_by[0]
-                                  && is_chosen_to_remember(other, constants);
-                         });
     }
 
     bool
@@ -66,7 +59,8 @@ namespace Exemplar
       case Beside::statics:
         return scene.scene == SceneKind::statics;
       case Beside::other_strain:
-        return scene.model.law() != CellLaw::corotational && !scene.material.law_of_grain();
+        return scene.model.law() != CellLaw::corotational && scene.model.law() != law
+               && !scene.material.law_of_grain();
       case Beside::grain:
         return scene.material.law_of_grain().has_value();
       case Beside::fibres:
@@ -76,7 +70,7 @@ namespace Exemplar
       case Beside::memory:
         return has_memory(scene.material);
       case Beside::other_memory:
-        return has_other_memory(law, constants);
+        return have_memory(constants, traits_of(law).chosen_by[0]);
       case Beside::unblended_examples:
         return scene.examples.in_use() && scene.examples.energy != ExampleEnergy::blended;
       case Beside::own_elasticity:
@@ -108,14 +102,16 @@ namespace Exemplar
         const std::string key      = constant != nullptr
                                          ? section + "/" + constant
                                          : "Model/Background = " + std::string(traits_of(law).name);
+        const std::string without
+            = constant != nullptr ? key + " = 0" : "Model/Background = corotational";
         if (is_there(refusal.beside, scene, constants, law))
-          throw UserError(key + fmt::format(fmt::runtime(refusal.words), key));
+          throw UserError(key + fmt::format(fmt::runtime(refusal.words), without));
       }
     }
   } // namespace
 
   void
-  SceneParameters::check_laws() const
+  CompleteScene::check_laws() const
   {
     const auto check = [this](const CellLaw law)
     {

@@ -216,43 +216,30 @@ namespace Exemplar
     const Regions regions = material_regions(assignments);
     parameters.material.declare_regions(keys, regions.ids, regions.names);
     // deal.II rounds default texts to six digits: take over the text that was set
-    const auto take_over = [&](const std::string &subsection)
+    for (const DeclaredKey &key : keys.keys())
+      if (key.subsections.size() == 2 && key.subsections[0] == "Material")
+        keys.set(key.path(), keys.get("Material/" + key.key));
+    const auto declare_named
+        = [&](const std::string &section, const std::vector<std::string> &names, auto &entries)
     {
-      for (const DeclaredKey &key : keys.keys())
-        if (key.subsections == std::vector<std::string>{ "Material", subsection })
-          keys.set(key.path(), keys.get("Material/" + key.key));
+      entries.resize(names.size()); // before binding: entries must not move
+      keys.enter_subsection(section);
+      for (std::size_t i = 0; i < names.size(); ++i)
+      {
+        entries[i].name = names[i];
+        entries[i].declare(keys);
+      }
+      keys.leave_subsection();
     };
-    for (const unsigned int id : regions.ids)
-      take_over(MaterialParameters::region_name(id));
-    for (const std::string &name : regions.names)
-      take_over(MaterialParameters::region_name(name));
-    parameters.handles.resize(handle_names.size()); // before binding: entries must not move
-    parameters.loads.named.resize(load_names.size());
-    keys.enter_subsection("Handles");
-    for (unsigned int i = 0; i < handle_names.size(); ++i)
-    {
-      parameters.handles[i].name = handle_names[i];
-      parameters.handles[i].declare(keys);
-    }
-    keys.leave_subsection();
-    keys.enter_subsection("Loads");
-    for (unsigned int i = 0; i < load_names.size(); ++i)
-    {
-      parameters.loads.named[i].name = load_names[i];
-      parameters.loads.named[i].declare(keys);
-    }
-    keys.leave_subsection();
+    declare_named("Handles", handle_names, parameters.handles);
+    declare_named("Loads", load_names, parameters.loads.named);
   }
 
   void
   SceneFile::make_selections_absolute()
   {
-    for (const HandleParameters &handle : parameters.handles)
-      keys.set("Handles/" + handle.name + "/Select",
-               Selection::absolute(handle.select.text, directory()));
-    for (const LoadParameters &load : parameters.loads.named)
-      keys.set("Loads/" + load.name + "/Select",
-               Selection::absolute(load.select.text, directory()));
+    for (const auto &[selection, key] : parameters.selects())
+      keys.set(key, Selection::absolute(selection.text, directory()));
     for (const DeclaredKey &key : keys.keys())
       if (key.key == "Fibre direction")
         keys.set(key.path(), absolute_fibre_direction(key.value, directory()));

@@ -119,5 +119,23 @@ namespace Exemplar::Testing
       spoilt.strain_energy_density[0] = infinite;
       EXPECT_EQ(what_is_not_finite(spoilt), "densities of energy");
     }
+
+    TEST(Finiteness, LooksAtTheWholeFrame)
+    {
+      Frame good;
+      good.positions.reinit(6);
+      good.cells  = { { 1., 2. }, { 1., 1. }, { 0., 0. } };
+      good.fields = { { "contact_force", Vector(6) } };
+      EXPECT_EQ(what_is_not_finite(good), "");
+      Frame spoilt               = good;
+      spoilt.fields[0].values[5] = std::nan("");
+      EXPECT_EQ(what_is_not_finite(spoilt), "values of contact_force");
+      spoilt              = good;
+      spoilt.positions[2] = std::numeric_limits<double>::infinity();
+      EXPECT_EQ(what_is_not_finite(spoilt), "positions");
+      spoilt                           = good;
+      spoilt.cells.von_mises_stress[1] = std::nan("");
+      EXPECT_EQ(what_is_not_finite(spoilt), "stresses");
+    }
   } // namespace
 } // namespace Exemplar::Testing

@@ -2,6 +2,7 @@
 #ifndef exemplar_finiteness_h
 #define exemplar_finiteness_h
 
+#include <exemplar/run/frames/frame_writer.h>
 #include <exemplar/run/problem/problem.h>
 
 #include <string>
@@ -17,6 +18,10 @@ namespace Exemplar
   /// Names of the cell results in frames that are not finite; empty if all are.
   std::string
   what_is_not_finite(const CellResults &cells);
+
+  /// Names of what a frame holds that is not finite; empty if all is.
+  std::string
+  what_is_not_finite(const Frame &frame);
 
   /// Throws UserError if quantities at the initial state are not finite. All processes must call
   /// this and the next.

@@ -168,9 +168,18 @@ namespace Exemplar
     std::function<void(const State &start, double size)> on_step;
 
   private:
-    /// Update the parts that depend on material, poses and importance.
+    /// Update the parts that depend on what has changed, in order of dependency, by the bits of
+    /// problem_changes.cc.
     void
-    follow_parameters();
+    refresh(unsigned int changed);
+
+    /// Let handles hold as in a step that begins at this time [s].
+    void
+    follow_time(double time);
+
+    /// Make loads if there are none. Throws UserError for an interpolation.
+    void
+    require_loads();
 
     Changes                        changes;
     std::unique_ptr<Laboratory>    lab;     ///< null until it is used

@@ -68,9 +68,9 @@ namespace Exemplar
   private:
     using Action = void (SessionPlayer::*)(const SessionEvent &);
 
+    /// On springs and handles.
     static const std::map<std::string, Action> actions;
 
-    // actions
     void
     grab(const SessionEvent &event);
     void
@@ -83,18 +83,6 @@ namespace Exemplar
     shift(const SessionEvent &event);
     void
     let_go(const SessionEvent &event);
-    void
-    set_material(const SessionEvent &event);
-    void
-    set_importance(const SessionEvent &event);
-    void
-    hold_weights(const SessionEvent &event);
-    void
-    set_gravity(const SessionEvent &event);
-    void
-    set_damping(const SessionEvent &event);
-    void
-    forget(const SessionEvent &event);
 
     /// Displacements of a handle's nodes when it was held [m], and the shift of all since then.
     struct Place

@@ -17,10 +17,6 @@ namespace Exemplar
 
     void
     declare(KeyTable &keys);
-
-    /// Throws UserError if there are two poses.
-    void
-    check() const;
   };
 } // namespace Exemplar
 

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Exemplar
@@ -26,6 +27,9 @@ namespace Exemplar
     statics,
     dynamic
   };
+
+  /// Choices of nodes, each with its key.
+  using KeyedSelections = std::vector<std::pair<Selection, std::string>>;
 
   /// The parameters of a scene, filled by a SceneFile from text or by a program.
   struct SceneParameters
@@ -45,6 +49,14 @@ namespace Exemplar
     std::string                   session;  ///< file of the recorded session; empty: none
     std::vector<std::string>      warnings; ///< about text of the scene without effect
 
+    /// Select of all handles and loads.
+    KeyedSelections
+    selects() const;
+
+    /// Choices of nodes by handles, loads and fibre directions.
+    KeyedSelections
+    selections() const;
+
     /// Whether a part of the scene needs the surface of the body.
     bool
     needs_surface() const;
@@ -53,28 +65,9 @@ namespace Exemplar
     bool
     reads_off_surface() const;
 
-  private:
     /// The key that reads off the surface, for messages; empty: none.
     std::string
     key_read_off_surface() const;
-
-    void
-    check_interpolation() const;
-
-    /// Throws UserError where a law of the cells refuses what stands beside it, see Refusal.
-    void
-    check_laws() const;
-
-    void
-    check_starts() const;
-
-    void
-    check_solver() const;
-
-    void
-    check_surface() const;
-
-    friend class CompleteScene;
   };
 
   /// A scene with the values that its kind determines: importance 1 and prescribed weights of an
@@ -97,6 +90,20 @@ namespace Exemplar
 
     void
     check() const;
+
+    /// Throws UserError where a law of the cells refuses what stands beside it, see Refusal.
+    void
+    check_laws() const;
+
+    void
+    check_starts() const;
+
+    void
+    check_solver() const;
+
+    /// Throws UserError for what needs the surface that the scene does not name.
+    void
+    check_without_surface() const;
   };
 } // namespace Exemplar
 
