@@ -62,6 +62,15 @@ namespace Exemplar
     }
 
     Dual &
+    operator*=(const double factor)
+    {
+      value *= factor;
+      for (double &derivative : by)
+        derivative *= factor;
+      return *this;
+    }
+
+    Dual &
     operator/=(const Dual &x)
     {
       return *this *= inverse(x);
@@ -201,6 +210,17 @@ namespace Exemplar
   beyond_logarithm(const Dual<n> &x)
   {
     return chained(x, x.value - std::log1p(x.value), x.value / (1. + x.value));
+  }
+
+  /// factor A of a factor without derivatives.
+  template <std::size_t n>
+  Matrix3<Dual<n>>
+  times(const double factor, Matrix3<Dual<n>> A)
+  {
+    for (auto &row : A.value)
+      for (Dual<n> &entry : row)
+        entry *= factor;
+    return A;
   }
 
   /// The inverse without bounds, because eigenvectors have no derivatives where eigenvalues coincide.

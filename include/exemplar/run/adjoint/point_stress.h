@@ -84,8 +84,7 @@ namespace Exemplar
     stress_towards(const Matrix3<Number> &D)
     {
       cell.set_target(D);
-      return { times(Number(at.share), cell.force()),
-               times(Number(-at.share), cell.weight_stress(D)) };
+      return { times(at.share, cell.force()), times(-at.share, cell.weight_stress(D)) };
     }
 
     /// The sums of the dilatation, where `wish` is the trace of the target.
@@ -138,7 +137,9 @@ namespace Exemplar
     static void
     add(const Number &factor, const Matrix3<Number> &A, Matrix3<Number> &to)
     {
-      to = combine(Number(1.), to, factor, A);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          to[i][j] += factor * A[i][j];
     }
 
     const PointPlace<Number>        &at;
