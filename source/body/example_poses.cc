@@ -49,31 +49,6 @@ namespace Exemplar
     }
   } // namespace
 
-  namespace
-  {
-    /// The part of a strain that examples act on, Eq. (31).
-    Matrix3<double>
-    acting_part(const ActsOn           acts_on,
-                const Material        &material,
-                const unsigned int     cell,
-                const Matrix3<double> &E)
-    {
-      switch (acts_on)
-      {
-      case ActsOn::shape:
-        return combine(1., E, -1., part_of_pressure(material, cell, E));
-      case ActsOn::volume:
-        return part_of_pressure(material, cell, E);
-      case ActsOn::along_fibres:
-        return part_of_tension(material, cell, E);
-      case ActsOn::across_fibres:
-        return combine(1., E, -1., part_of_tension(material, cell, E));
-      default:
-        return E;
-      }
-    }
-  } // namespace
-
   double
   unit_energy(const FESpace &fe_space, const Material &material)
   {
@@ -247,8 +222,11 @@ namespace Exemplar
         const Matrix3<double> F    = fe_space.deformation_gradient(point, poses[i].positions);
         const Matrix3<double> E    = model_strain(law, model_rotation(law, F), F);
         const unsigned int    cell = fe_space.cell_of(point);
-        const Matrix3<double> part = acting_part(rule.acts_on, material, cell, E);
-        const bool            own  = material.has_elasticity_of_examples();
+        const Matrix3<double> part
+            = ActingStrain<double>(rule.acts_on, material.whole_of_examples(cell),
+                                   material.grain_axes(cell))
+                  .of(E);
+        const bool own = material.has_elasticity_of_examples();
         add_to_stored(strains.data(), point, n_strained(), i - first_strained,
                       own ? 1. : example_constants.importance * material.importance(cell),
                       own ? material.blend(cell).drawn_strain(part) : part);

@@ -19,13 +19,13 @@ namespace Exemplar
     CellMaterial<double>
     elasticity_of(const ElasticConstants &constants)
     {
-      const double E = constants.youngs_modulus, nu = constants.poissons_ratio;
-      const double lambda = E * nu / ((1. + nu) * (1. - 2. * nu)), mu = E / (2. * (1. + nu));
-      if (!std::isfinite(lambda) || !std::isfinite(mu))
+      const double               E = constants.youngs_modulus, nu = constants.poissons_ratio;
+      const CellMaterial<double> elasticity = isotropic_of(E, nu);
+      if (!std::isfinite(elasticity.lambda) || !std::isfinite(elasticity.mu))
         throw UserError("Material: with Young's modulus " + shortest_text(E)
                         + " Pa and Poisson's ratio " + shortest_text(nu)
                         + " the body is too stiff to compute with. Lower one of them.");
-      return { lambda, mu };
+      return elasticity;
     }
 
     void
@@ -58,14 +58,16 @@ namespace Exemplar
     /// Name of the fibre stiffness, the constant of the law with fibres.
     const char *const alpha = Fibrous<double>::own_constants[0].name;
 
-    Orthotropy
-    grain_of(const ElasticConstants &constants, const CellMaterial<double> &isotropic)
+    CellElasticity<double>
+    whole_of(const ElasticConstants &constants)
     {
-      const double      fibres = constants.own.at(alpha);
-      const std::string key    = "Material/Orthotropy";
-      return constants.orthotropy.empty()
-                 ? Orthotropy(isotropic, fibres)
-                 : Orthotropy(parse_orthotropy(constants.orthotropy, key), fibres, key);
+      const CellMaterial<double> isotropic = elasticity_of(constants);
+      const double               fibres    = constants.own.at(alpha);
+      if (constants.orthotropy.empty())
+        return { isotropic, fibres, {} };
+      const std::string key = "Material/Orthotropy";
+      const auto tensor = orthotropy_of(parse_orthotropy(constants.orthotropy, key), fibres, key);
+      return { tensor.isotropic_part(), fibres, tensor };
     }
   } // namespace
 
@@ -97,37 +99,24 @@ namespace Exemplar
     CellConstants
     constants_of(const ElasticConstants &values, std::shared_ptr<const OwnConstants> own)
     {
-      CellMaterial<double> elasticity     = elasticity_of(values);
-      double               youngs_modulus = values.youngs_modulus;
-      double               poissons_ratio = values.poissons_ratio;
-      const Orthotropy     grain          = grain_of(values, elasticity);
-      const bool           is_orthotropic = !values.orthotropy.empty();
-      if (is_orthotropic)
+      const CellElasticity<double> whole          = whole_of(values);
+      double                       youngs_modulus = values.youngs_modulus;
+      double                       poissons_ratio = values.poissons_ratio;
+      if (whole.orthotropic)
       {
-        elasticity               = grain.isotropic_part();
-        const auto &[lambda, mu] = elasticity;
+        const auto &[lambda, mu] = whole.isotropic;
         youngs_modulus           = mu * (3. * lambda + 2. * mu) / (lambda + mu);
         poissons_ratio           = lambda / (2. * (lambda + mu));
       }
-      const double lambda_of_patches
-          = values.has_grain() ? grain.lambda_of_patches() : elasticity.lambda;
-      return { elasticity,
-               values.density,
-               youngs_modulus,
-               poissons_ratio,
-               values.importance,
-               std::move(own),
-               lambda_of_patches,
-               grain,
-               0.,
-               is_orthotropic };
+      return { whole,          whole.isotropic,   values.density, youngs_modulus,
+               poissons_ratio, values.importance, std::move(own), 0. };
     }
 
     /// The constants beyond Lamé's of the law of general anisotropy.
     std::array<double, 22>
     stiffness(const CellConstants &of_cell, const GrainAxes &axes)
     {
-      const Orthotropy       grain   = of_cell.grain.without(of_cell.lambda_of_others);
+      const auto             grain   = of_cell.whole.tensor().without(of_cell.lambda_of_others);
       const auto             entries = grain.entries(axes);
       std::array<double, 22> numbers;
       numbers[0] = grain.least();
@@ -173,9 +162,9 @@ namespace Exemplar
   void
   Material::find_stiffnesses()
   {
-    const bool is_any
-        = std::any_of(constants.begin(), constants.end(),
-                      [](const CellConstants &values) { return values.is_orthotropic; });
+    const bool is_any = std::any_of(constants.begin(), constants.end(),
+                                    [](const CellConstants &values)
+                                    { return values.whole.orthotropic.has_value(); });
     stiffnesses.resize(is_any ? constants_of_cell.size() : 0);
     for (unsigned int cell = 0; cell < stiffnesses.size(); ++cell)
       stiffnesses[cell] = stiffness(constants[constants_of_cell[cell]], grain_axes(cell));
@@ -192,7 +181,7 @@ namespace Exemplar
   Material::norm_estimate(const unsigned int cell) const
   {
     const CellConstants &of_cell = constants[constants_of_cell[cell]];
-    return of_cell.elasticity.norm_estimate() + of_cell.grain.norm_of_grain();
+    return of_cell.elasticity.norm_estimate() + of_cell.whole.tensor().norm_of_grain();
   }
 
   void
@@ -288,7 +277,7 @@ namespace Exemplar
         result.constants.back()         = before; // bitwise unchanged
         result.constants.back().density = values.density;
       }
-      else if (before.is_orthotropic)
+      else if (before.whole.orthotropic)
         throw UserError("Material/Orthotropy has nine constants of its own, so Young's modulus and "
                         "Poisson's ratio of the body cannot change. Change its density alone.");
     }
@@ -302,7 +291,7 @@ namespace Exemplar
     Material rest = *this;
     for (CellConstants &values : rest.constants)
     {
-      const double lambda = values.lambda_of_patches;
+      const double lambda = values.whole.lambda_of_patches();
       if (values.elasticity.lambda == lambda)
         values.elasticity = values.elasticity.without_dilatation();
       else

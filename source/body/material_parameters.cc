@@ -73,7 +73,7 @@ namespace Exemplar
         return;
       const std::string           key = section + "/Orthotropy";
       const std::array<double, 9> c   = parse_orthotropy(constants.orthotropy, key);
-      static_cast<void>(Orthotropy(c, 0., key));
+      static_cast<void>(orthotropy_of(c, 0., key));
       const bool is_round = c[1] == c[2] && c[4] == c[5] && c[7] == c[8]
                             && std::abs(2. * c[6] * (1. + c[3]) - c[1]) < 1e-6 * c[1];
       if (!is_round && constants.cross_direction.empty())

@@ -113,14 +113,14 @@ namespace Exemplar
       const double lambda = patches.lambda(patch), mean = means[patch];
       const double D  = target(patch, at.weights);
       Told        &to = of_patches[patch];
-      to              = { lambda * (share() * mean - D),
+      to              = { pressure_of_mean(lambda, share(), mean, D),
                           root * std::abs(lambda) * (share() * std::abs(mean) + std::abs(D)) };
       if (volumes)
         to.scale += root * std::abs(volumes->pressure(patch));
       if (const double s = damping.factor(patch); s > 0.)
       {
         const double past = damping.past_means[patch];
-        to.pressure += s * lambda * (mean - past);
+        to.pressure += pressure_of_mean(s * lambda, 1., mean, past);
         to.scale += s * root * std::abs(lambda) * (std::abs(mean) + std::abs(past));
       }
     }
@@ -145,17 +145,15 @@ namespace Exemplar
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      const double deviation = means[patch] - target(patch, at.weights);
-      sums->energy_elastic += 0.5 * patches.stiffness(patch) * means[patch] * means[patch];
-      sums->energy += 0.5 * patches.stiffness(patch) * deviation * deviation;
+      const double stiffness = patches.stiffness(patch), D = target(patch, at.weights);
+      sums->energy_elastic += energy_of_mean(stiffness, means[patch], 0.);
+      sums->energy += energy_of_mean(stiffness, means[patch], D);
       for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
-        sums->weight_gradient[weight] -= patches.stiffness(patch) * deviation
+        sums->weight_gradient[weight] -= pressure_of_mean(stiffness, 1., means[patch], D)
                                          * examples.get_gram().patch_dilatation(patch, weight);
       if (const double s = damping.factor(patch); s > 0.)
-      {
-        const double change = means[patch] - damping.past_means[patch];
-        sums->energy_damping += 0.5 * s * patches.stiffness(patch) * change * change;
-      }
+        sums->energy_damping
+            += energy_of_mean(s * stiffness, means[patch], damping.past_means[patch]);
     }
     if (volumes)
       add_energies_of_volumes(sums);
@@ -169,7 +167,7 @@ namespace Exemplar
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      const double of_trace  = 0.5 * patches.stiffness(patch) * means[patch] * means[patch];
+      const double of_trace  = energy_of_mean(patches.stiffness(patch), means[patch], 0.);
       const double of_volume = patches.volume(patch) * volumes->density(patch);
       sums->energy_elastic += of_volume - of_trace;
       sums->energy += (1. - share()) * (of_volume - of_trace);
@@ -265,7 +263,7 @@ namespace Exemplar
     {
       const unsigned int patch = patches.of_point(point);
       of_points[point] += volumes ? volumes->density(patch)
-                                  : 0.5 * patches.lambda(patch) * means[patch] * means[patch];
+                                  : energy_of_mean(patches.lambda(patch), means[patch], 0.);
     }
     guard.add_densities(*cells, of_points);
   }

@@ -2,25 +2,11 @@
 #include <exemplar/potential/patch_guard.h>
 
 #include <algorithm>
-#include <array>
 
 namespace Exemplar
 {
   namespace
   {
-    constexpr double relative_range = 0.3;
-
-    /// beta(m) = z^3 (10 - 15 z + 6 z^2) and its first two derivatives.
-    std::array<double, 3>
-    transition(const double m, const double bound)
-    {
-      const double range = relative_range * bound;
-      const double z     = std::clamp((m - bound) / range, 0., 1.);
-      return { { z * z * z * (10. - 15. * z + 6. * z * z),
-                 30. * z * z * (1. - z) * (1. - z) / range,
-                 60. * z * (1. - z) * (1. - 2. * z) / (range * range) } };
-    }
-
     /// m_p of each patch where the nodes are at `positions`.
     std::vector<double>
     mean_squares_of(const Patches &patches, const FESpace &fe_space, const Vector &positions)
@@ -41,13 +27,13 @@ namespace Exemplar
                          const Material     &material,
                          const ExamplePoses &examples)
       : patches(patches), fe_space(fe_space), material(material),
-        bounds(patches.size(), min_stretched_square)
+        bounds(patches.size(), bound_of_guard(0.))
   {
     for (unsigned int pose = 0; pose < examples.size(); ++pose)
     {
       const std::vector<double> of_pose = mean_squares_of(patches, fe_space, examples.pose(pose));
       for (unsigned int patch = 0; patch < patches.size(); ++patch)
-        bounds[patch] = std::max(bounds[patch], 1.2 * of_pose[patch]);
+        bounds[patch] = std::max(bounds[patch], bound_of_guard(of_pose[patch]));
     }
   }
 
@@ -69,9 +55,9 @@ namespace Exemplar
       if (mean_squares[patch] > bounds[patch] && share * patches.lambda(patch) > 0.
           && has_guard(cells, patch))
       {
-        const auto [beta, first, second] = transition(mean_squares[patch], bounds[patch]);
-        stretched.push_back(
-            { patch, share * patches.lambda(patch), means[patch], beta, first, second });
+        const GuardTransition<double> beta(mean_squares[patch], bounds[patch]);
+        stretched.push_back({ patch, share * patches.lambda(patch), means[patch], beta.value(),
+                              beta.first(), beta.second() });
       }
     DilatationField &dilatation = cells.get_dilatation();
     dilatation.stretch.acts     = acts();
@@ -120,7 +106,7 @@ namespace Exemplar
                       const unsigned int     point) const
   {
     const double excess = dilatation.traces[point] - of_patch.mean;
-    return 0.5 * of_patch.lambda * excess * excess + dilatation.stretch.energies[point];
+    return energy_of_guard(of_patch.lambda, excess * excess, dilatation.stretch.energies[point]);
   }
 
   void

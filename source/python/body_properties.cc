@@ -64,18 +64,18 @@ namespace Exemplar::Python
                        + copy,
                    [](const Material &material, const unsigned int cell)
                    {
-                     const Material::BodyConstants body = material.of_body_alone(cell);
-                     return body.is_orthotropic ? std::numeric_limits<double>::quiet_NaN()
-                                                : body.youngs_modulus;
+                     const CellConstants &body = material.of_body_alone(cell);
+                     return body.whole.orthotropic ? std::numeric_limits<double>::quiet_NaN()
+                                                   : body.youngs_modulus;
                    });
       add_constant(problem, "poisson",
                    "Poisson's ratio (m,) [-] of each cell; nan where nine constants stand for it."
                        + copy,
                    [](const Material &material, const unsigned int cell)
                    {
-                     const Material::BodyConstants body = material.of_body_alone(cell);
-                     return body.is_orthotropic ? std::numeric_limits<double>::quiet_NaN()
-                                                : body.poissons_ratio;
+                     const CellConstants &body = material.of_body_alone(cell);
+                     return body.whole.orthotropic ? std::numeric_limits<double>::quiet_NaN()
+                                                   : body.poissons_ratio;
                    });
       add_constant(problem, "density", "Density (m,) [kg/m^3] of each cell." + copy,
                    [](const Material &material, const unsigned int cell)

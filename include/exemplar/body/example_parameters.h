@@ -2,6 +2,8 @@
 #ifndef exemplar_example_parameters_h
 #define exemplar_example_parameters_h
 
+#include <exemplar/kernels/elasticity.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +48,15 @@ namespace Exemplar
     is_own() const
     {
       return youngs_modulus || poissons_ratio;
+    }
+
+    /// C_e in a material of Young's modulus E [Pa] and Poisson's ratio nu.
+    template <typename Number>
+    Isotropic<Number>
+    isotropic(const Number &E, const Number &nu) const
+    {
+      return isotropic_of(youngs_modulus ? Number(*youngs_modulus) : E,
+                          poissons_ratio ? Number(*poissons_ratio) : nu);
     }
   };
 

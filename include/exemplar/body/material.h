@@ -2,9 +2,9 @@
 #ifndef exemplar_material_h
 #define exemplar_material_h
 
+#include <exemplar/body/cell_elasticity.h>
 #include <exemplar/body/example_parameters.h>
 #include <exemplar/body/material_parameters.h>
-#include <exemplar/body/orthotropy.h>
 #include <exemplar/kernels/cell_model.h>
 #include <exemplar/mesh/msh_file.h>
 
@@ -46,16 +46,14 @@ namespace Exemplar
   /// The constants of a region, or of a cell where they are painted.
   struct CellConstants
   {
-    CellMaterial<double>                elasticity;
+    CellElasticity<double>              whole;      ///< C
+    CellMaterial<double>                elasticity; ///< of cells, less what patches have taken
     double                              density;
     double                              youngs_modulus;
-    double                              poissons_ratio;    ///< input value, where isotropic
-    double                              importance;        ///< factor of Examples/Importance
-    std::shared_ptr<const OwnConstants> own;               ///< shared by many cells
-    double                              lambda_of_patches; ///< [Pa]
-    Orthotropy                          grain;             ///< the whole of C, in the cell's axes
-    double                              lambda_of_others;  ///< lambda that patches have taken [Pa]
-    bool                                is_orthotropic;    ///< given by nine constants
+    double                              poissons_ratio;   ///< input value, where isotropic
+    double                              importance;       ///< factor of Examples/Importance
+    std::shared_ptr<const OwnConstants> own;              ///< shared by many cells
+    double                              lambda_of_others; ///< lambda that patches have taken [Pa]
 
     template <typename Archive>
     void
@@ -64,48 +62,11 @@ namespace Exemplar
       OwnConstants numbers;
       if constexpr (Archive::is_saving::value)
         numbers = *own;
-      archive &elasticity.lambda &elasticity.mu &density &youngs_modulus &poissons_ratio &importance
-          &numbers &lambda_of_patches &grain &lambda_of_others &is_orthotropic;
+      archive &whole &elasticity.lambda                                     &elasticity
+          .mu &density &youngs_modulus &poissons_ratio &importance &numbers &lambda_of_others;
       if constexpr (Archive::is_loading::value)
         own = std::make_shared<const OwnConstants>(std::move(numbers));
     }
-  };
-
-  /// C and C_e of a cell whose examples have an elasticity of their own, with the eta of
-  /// C' = (1 - eta) C + eta C_e, Eq. (38).
-  class BlendedElasticity
-  {
-  public:
-    BlendedElasticity(const CellConstants     &body,
-                      const ExampleElasticity &of_examples,
-                      double                   eta,
-                      const GrainAxes         &axes);
-
-    /// C_e.
-    const Orthotropy &
-    of_examples() const
-    {
-      return examples;
-    }
-
-    /// The target strain D = C'^-1:eta C_e:E of an example strain E, Eq. (38).
-    Matrix3<double>
-    drawn_strain(const Matrix3<double> &E) const;
-
-    /// The stress C_y:D = (1 - eta) / eta C':C_e^-1:C:D [Pa] of a target strain D, Eq. (38), by
-    /// which the energy of the examples exceeds that of D; 0 where eta is 0.
-    Matrix3<double>
-    excess_stress(const Matrix3<double> &D) const;
-
-    /// The part of C_y that patches take: lambda of an isotropic material, 0 of another one [Pa].
-    double
-    excess_of_patches() const;
-
-  private:
-    Orthotropy body, examples;
-    double     eta;
-    GrainAxes  axes;
-    bool       body_is_isotropic;
   };
 
   /// The elastic constants and the density of each cell.
@@ -137,7 +98,7 @@ namespace Exemplar
     double
     lambda_of_patches(const unsigned int cell) const
     {
-      return constants[constants_of_cell[cell]].lambda_of_patches;
+      return constants[constants_of_cell[cell]].whole.lambda_of_patches();
     }
 
     /// An estimate of the norm of C [Pa].
@@ -174,7 +135,7 @@ namespace Exemplar
     }
 
     /// C and C_e of a cell. Requires has_elasticity_of_examples().
-    BlendedElasticity
+    BlendedElasticity<double>
     blend(unsigned int cell) const;
 
     /// A copy without the volume part of the energy that belongs to patches.
@@ -215,17 +176,12 @@ namespace Exemplar
       return constants[constants_of_cell[cell]].youngs_modulus;
     }
 
-    /// Constants of the body that set_material() changes, without the elasticity of its examples.
-    struct BodyConstants
+    /// Constants of the body without the elasticity of its examples.
+    const CellConstants &
+    of_body_alone(const unsigned int cell) const
     {
-      double youngs_modulus;  ///< [Pa]
-      double poissons_ratio;  ///< [-]
-      double fibre_stiffness; ///< [Pa]
-      bool   is_orthotropic;  ///< given by nine constants, which are not among these
-    };
-
-    BodyConstants
-    of_body_alone(unsigned int cell) const;
+      return (has_elasticity_of_examples() ? of_body : constants)[constants_of_cell[cell]];
+    }
 
     /// C_e; without values where it is the body's.
     const ExampleElasticity &
@@ -234,12 +190,9 @@ namespace Exemplar
       return of_examples;
     }
 
-    /// The whole of C, in the axes of the cell.
-    const Orthotropy &
-    grain(const unsigned int cell) const
-    {
-      return constants[constants_of_cell[cell]].grain;
-    }
+    /// C_e, or C where that is the examples' elasticity.
+    CellElasticity<double>
+    whole_of_examples(unsigned int cell) const;
 
     /// Axes of a cell; zeros where no material needs them.
     GrainAxes

@@ -45,13 +45,14 @@ namespace Exemplar
       return corotated_strain(rotation, deformation_gradient);
     }
 
-    CorotationalCell(const OfLaw            &material,
-                     const Matrix3<Number>  &rotation,
-                     const Matrix3<Number>  &deformation_gradient,
-                     const ExampleConstants &examples)
+    template <typename Real = double>
+    CorotationalCell(const OfLaw                &material,
+                     const Matrix3<Number>      &rotation,
+                     const Matrix3<Number>      &deformation_gradient,
+                     const ExampleNumbers<Real> &examples)
         : CorotationalCell(material,
                            symmetric_part(transpose_times(rotation, deformation_gradient)),
-                           examples.guard_bound)
+                           Number(examples.guard_bound))
     {
     }
 
@@ -286,14 +287,14 @@ namespace Exemplar
       dP = combine(Number(1.), dP, Number(1.), combine(d_force, by_S, guard_force, of_force));
     }
 
-    CorotationalCell(const OfLaw &material, const Matrix3<Number> &S, const double p_0)
+    CorotationalCell(const OfLaw &material, const Matrix3<Number> &S, const Number &p_0)
         : Quadratic(material, minus_identity(S)), elasticity(material.isotropic_part()), S(S)
     {
       B = combine(Number(-1.), S, Number(0.), S);
       for (int i = 0; i < 3; ++i)
         B[i][i] += trace(S);
       product               = determinant(B);
-      const Guard<Number> g = guard(product, Number(p_0));
+      const Guard<Number> g = guard(product, p_0);
       phi                   = g.phi;
       phi_derivative        = g.derivative;
       phi_second            = g.second;
@@ -313,11 +314,7 @@ namespace Exemplar
     void
     invert_B()
     {
-      B_inverse           = cofactors(B); // symmetric, so cofactors need no transpose
-      const Number factor = Number(1.) / determinant(B);
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          B_inverse[i][j] *= factor;
+      B_inverse = inverse_of_symmetric(B);
       if (any(is_guarded()))
         B_inverse = select_matrix(is_guarded(), bounded_inverse(B, Number(1e-8)), B_inverse);
     }

@@ -81,6 +81,15 @@ namespace Exemplar
   template <typename Number>
   using CellMaterial = Isotropic<Number>;
 
+  /// The material of Young's modulus E [Pa] and Poisson's ratio nu.
+  template <typename Number>
+  Isotropic<Number>
+  isotropic_of(const Number &E, const Number &nu)
+  {
+    const Number one(1.), two(2.);
+    return { E * nu / ((one + nu) * (one - two * nu)), E / (two * (one + nu)) };
+  }
+
   /// C:E [Pa].
   template <typename Number>
   [[gnu::always_inline]] inline Matrix3<Number>

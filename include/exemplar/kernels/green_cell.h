@@ -56,10 +56,11 @@ namespace Exemplar
       return symmetric_part(transpose_times(deformation_gradient, dF));
     }
 
+    template <typename Real = double>
     GreenCell(const CellMaterial<Number> &material,
               const Matrix3<Number> & /*rotation*/,
               const Matrix3<Number> &deformation_gradient,
-              const ExampleConstants & /*examples*/)
+              const ExampleNumbers<Real> & /*examples*/)
         : QuadraticCell<Number>(material, green_strain(deformation_gradient)),
           F(deformation_gradient)
     {

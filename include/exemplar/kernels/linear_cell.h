@@ -34,10 +34,11 @@ namespace Exemplar
       return corotated_strain(rotation, deformation_gradient);
     }
 
+    template <typename Real = double>
     FixedRotationCell(const CellMaterial<Number> &material,
                       const Matrix3<Number>      &rotation,
                       const Matrix3<Number>      &deformation_gradient,
-                      const ExampleConstants & /*examples*/)
+                      const ExampleNumbers<Real> & /*examples*/)
         : QuadraticCell<Number>(material, strain_of(rotation, deformation_gradient))
     {
     }

@@ -206,6 +206,14 @@ namespace Exemplar
     return C;
   }
 
+  /// A^-1 of a symmetric matrix.
+  template <typename Number>
+  Matrix3<Number>
+  inverse_of_symmetric(const Matrix3<Number> &A)
+  {
+    return times(Number(1.) / determinant(A), cofactors(A)); // symmetric, too
+  }
+
   /// Tangent of the angle of the Jacobi rotation that diagonalises [a b; b d].
   template <typename Number>
   Number

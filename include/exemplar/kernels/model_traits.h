@@ -19,11 +19,14 @@ namespace Exemplar
   };
 
   /// Constants of the examples that are the same in all cells, as opposed to target strains.
-  struct ExampleConstants
+  template <typename Number>
+  struct ExampleNumbers
   {
-    double guard_bound = 0.8; ///< p_0 of Eq. (16); the guard acts for p < p_0
-    double importance  = 0.;  ///< eta; 0 without examples
+    Number guard_bound = Number(0.8); ///< p_0 of Eq. (16); the guard acts for p < p_0
+    Number importance  = Number(0.);  ///< eta; 0 without examples
   };
+
+  using ExampleConstants = ExampleNumbers<double>;
 
   /// What a law may have no place beside: in a scene, or in the section of Material that chooses the law.
   enum class Beside

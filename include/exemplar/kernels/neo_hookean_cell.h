@@ -155,13 +155,15 @@ namespace Exemplar
                 " is for bodies in which examples are equally important everywhere. Set "
                 "Material/Importance factor = 1, or set {}." } } };
 
+    template <typename Real = double>
     NeoHookeanCell(const CellMaterial<Number> &material,
                    const Matrix3<Number>      &rotation,
                    const Matrix3<Number>      &deformation_gradient,
-                   const ExampleConstants     &examples)
-        : Corotational(material, rotation, deformation_gradient, examples), examples(examples),
+                   const ExampleNumbers<Real> &of_examples)
+        : Corotational(material, rotation, deformation_gradient, of_examples),
+          examples{ Number(of_examples.guard_bound), Number(of_examples.importance) },
           body(material, this->stretch_factor(), this->strain()),
-          attractor(attractor_of(Number(examples.importance)))
+          attractor(attractor_of(examples.importance))
     {
     }
 
@@ -201,7 +203,7 @@ namespace Exemplar
     Matrix3<Number>
     damp(const Matrix3<Number> &D, const Number &s, const Matrix3<Number> &past)
     {
-      share     = Number(examples.importance) + s;
+      share     = examples.importance + s;
       moved     = Number(1.) + s;
       attractor = attractor_of(share);
       return damped_target(D, s, past);
@@ -279,14 +281,14 @@ namespace Exemplar
     {
       Corotational cell(this->own_material().scaled(share), identity_matrix<Number>(),
                         this->stretch_factor(), examples);
-      cell.set_guard_elasticity(this->own_material().scaled(Number(examples.importance)));
+      cell.set_guard_elasticity(this->own_material().scaled(examples.importance));
       return cell;
     }
 
     Number
     of_body() const
     {
-      return Number(1. - examples.importance);
+      return Number(1.) - examples.importance;
     }
 
     /// Ratio of the attractor's target to that of a cell with elasticity C (1 + s).
@@ -296,11 +298,11 @@ namespace Exemplar
       return select(share > Number(0.), moved / share, Number(0.));
     }
 
-    ExampleConstants   examples;
-    Number             share = Number(examples.importance); ///< eta, with damping eta + s
-    Number             moved = Number(1.);                  ///< 1 + s
-    NeoHookean<Number> body;
-    Corotational       attractor;
+    ExampleNumbers<Number> examples;
+    Number                 share = examples.importance; ///< eta, with damping eta + s
+    Number                 moved = Number(1.);          ///< 1 + s
+    NeoHookean<Number>     body;
+    Corotational           attractor;
   };
 } // namespace Exemplar
 

@@ -5,6 +5,7 @@
 #include <exemplar/body/example_poses.h>
 #include <exemplar/kernels/patch_cell.h>
 #include <exemplar/potential/evaluation.h>
+#include <exemplar/potential/patch_energy.h>
 #include <exemplar/potential/patch_scatter.h>
 
 #include <vector>

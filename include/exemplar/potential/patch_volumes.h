@@ -4,6 +4,7 @@
 
 #include <exemplar/body/patches.h>
 #include <exemplar/potential/evaluation.h>
+#include <exemplar/potential/patch_energy.h>
 #include <exemplar/potential/patch_scatter.h>
 
 #include <vector>
@@ -27,14 +28,14 @@ namespace Exemplar
     double
     pressure(const unsigned int patch) const
     {
-      return patches.lambda(patch) * changes[patch];
+      return pressure_of_mean(patches.lambda(patch), 1., changes[patch], 0.);
     }
 
     /// lambda_p (J_p - 1)^2 / 2 [J/m^3].
     double
     density(const unsigned int patch) const
     {
-      return 0.5 * pressure(patch) * changes[patch];
+      return energy_of_mean(patches.lambda(patch), changes[patch], 0.);
     }
 
     /// Let the pressures act in the cells, which have the share of the background in their energy.

@@ -14,7 +14,7 @@ namespace Exemplar
   has_orthotropic_cells(const Problem &problem)
   {
     for (unsigned int cell = 0; cell < problem.body.mesh.n_cells(); ++cell)
-      if (problem.body.material.of_body_alone(cell).is_orthotropic)
+      if (problem.body.material.of_body_alone(cell).whole.orthotropic)
         return true;
     return false;
   }

@@ -1,25 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/kernels/patch_cell.h>
+#include <exemplar/potential/patch_energy.h>
 #include <exemplar/run/adjoint/example_strains.h>
 #include <exemplar/run/adjoint/point_shape.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
 namespace Exemplar
 {
-  PointMaterial::PointMaterial(const Material    &material,
-                               const Material    &cell_material,
-                               const ActsOn       acts_on,
-                               const double       part_of_patches,
-                               const unsigned int cell)
-      : material(material), cell_material(cell_material), cell(cell), acts_on(acts_on),
-        body(material.of_body_alone(cell)), of_examples(material.elasticity_of_examples()),
-        importance(material.importance(cell)), axis{}, part_of_patches(part_of_patches)
-  {
-    const GrainAxes axes = material.grain_axes(cell);
-    for (int i = 0; i < 3; ++i)
-      axis[i] = axes.along[static_cast<std::size_t>(i)];
-  }
-
   Matrix3<double>
   pulled_back(const CellLaw law, const Matrix3<double> &F, const Matrix3<double> &by_strain)
   {
@@ -101,7 +87,7 @@ namespace Exemplar
   std::optional<unsigned int>
   ExampleStrains::find_pose_of_bound(const unsigned int patch) const
   {
-    double                      maximum = min_stretched_square / 1.2;
+    double                      bound = bound_of_guard(0.);
     std::optional<unsigned int> result;
     for (unsigned int i = 0; i < poses.size(); ++i)
     {
@@ -111,10 +97,10 @@ namespace Exemplar
         const Matrix3<double> F = fe_space.deformation_gradient(point, poses.pose(i));
         mean += fe_space.volume(point) / patches.volume(patch) * contract(F, F);
       }
-      if (mean > maximum)
+      if (bound_of_guard(mean) > bound)
       {
-        maximum = mean;
-        result  = i;
+        bound  = bound_of_guard(mean);
+        result = i;
       }
     }
     return result;

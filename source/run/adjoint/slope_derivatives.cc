@@ -41,7 +41,7 @@ namespace Exemplar
         return 1.;
       }
 
-      Wish
+      MatrixAlong
       wish(const unsigned int point) const
       {
         return { strains.wish(point, problem.state.weights), strains.wish(point, along) };
@@ -67,11 +67,11 @@ namespace Exemplar
       /// Adds derivatives by weights, examples' strains, and poses that set bounds of the patches'
       /// guards.
       void
-      add_wish(const unsigned int    point,
-               const Wish           &by_wish,
-               const FactorsAtPoint &of_patches,
-               SlopeDerivatives     &sums,
-               Matrix3<double>      &by_gradients) const
+      add_wish(const unsigned int  point,
+               const MatrixAlong  &by_wish,
+               const PatchFactors *factors,
+               SlopeDerivatives   &sums,
+               Matrix3<double>    &by_gradients) const
       {
         const std::vector<double> &w = problem.state.weights;
         poses.for_each_weight(
@@ -84,9 +84,10 @@ namespace Exemplar
                   = pack(combine(1., unpack(by_strain), share,
                                  combine(w[weight], by_wish.value, along[weight], by_wish.change)));
             });
-        for (const PatchFactors &factor : of_patches)
-          if (const auto pose = strains.pose_of_bound(patches.of_point(point)))
-            add_bound(point, *pose, factor[PatchSum::bound].change, sums, by_gradients);
+        if (factors == nullptr)
+          return;
+        if (const auto pose = strains.pose_of_bound(patches.of_point(point)))
+          add_bound(point, *pose, (*factors)[PatchSum::bound].by[0], sums, by_gradients);
       }
 
       void

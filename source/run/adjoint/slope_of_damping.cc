@@ -56,7 +56,7 @@ namespace Exemplar
         return shares_of_patches[patch];
       }
 
-      Wish
+      MatrixAlong
       wish(const unsigned int point) const
       {
         return { strains[point], {} };
@@ -77,8 +77,8 @@ namespace Exemplar
       /// Adds derivatives by the earlier positions.
       void
       add_wish(const unsigned int point,
-               const Wish        &by_wish,
-               const FactorsAtPoint & /*of_patches*/,
+               const MatrixAlong &by_wish,
+               const PatchFactors * /*factors*/,
                SlopeDerivatives & /*sums*/,
                Matrix3<double> &by_gradients)
       {

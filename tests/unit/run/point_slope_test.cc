@@ -9,13 +9,9 @@ namespace Exemplar::Testing
 {
   namespace
   {
-    constexpr double importance = 0.6;
-
     const Material flesh(MaterialParameters(), { 0 });
 
-    const PointMaterial at_cell(flesh, flesh, ActsOn::all, 1., 0);
-
-    const PointScene scene = { { 0.8, importance }, 0.5, 1. };
+    const PointScene scene = { { flesh, flesh, ActsOn::all, true }, { 0.8, 0.6 }, 0.5 };
 
     const Matrix3<double> I = identity_matrix<double>();
 
@@ -33,40 +29,14 @@ namespace Exemplar::Testing
       return symmetric_part(times(0.2, random_matrix(generator)));
     }
 
-    template <typename Number>
-    PointPlace<Number>
-    place(const PointShape &shape, const Matrix3<double> &wish, const Matrix3<double> &change)
-    {
-      const auto constant_of = [](const double value, const std::size_t k)
-      { return OfPoint::seeded<Number>(value, 0., k); };
-      const Number eta = constant_of(importance, OfPoint::eta);
-      return { OfPoint::seeded_shape<Number>(shape),
-               OfPoint::seeded_symmetric<Number>(wish, change, OfPoint::wish),
-               MaterialFunctions<Number>(
-                   at_cell, constant_of(at_cell.body.youngs_modulus, OfPoint::E),
-                   constant_of(at_cell.body.poissons_ratio, OfPoint::nu), eta),
-               eta };
-    }
-
     PatchFactors
     random_factors(std::mt19937 &generator)
     {
       std::uniform_real_distribution<double> some(-1e5, 1e5);
       PatchFactors                           factors;
-      for (HyperDual<0> &factor : factors.numbers)
-        factor = HyperDual<0>(some(generator), some(generator));
+      for (OfPoint::Changing &factor : factors.numbers)
+        factor = OfPoint::Changing(some(generator), some(generator));
       return factors;
-    }
-
-    void
-    expect_equal(const Matrix3<HyperDual<0>> &A, const Matrix3<HyperDual<0>> &B, const double scale)
-    {
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-        {
-          EXPECT_NEAR(A[i][j].value, B[i][j].value, 1e-12 * scale);
-          EXPECT_NEAR(A[i][j].change, B[i][j].change, 1e-12 * scale);
-        }
     }
 
     TEST(PointShape, DerivativesAreThoseOfStretches)
@@ -79,10 +49,12 @@ namespace Exemplar::Testing
                               T   = random_strain(generator);
         const auto derivatives_at = [&](const double t)
         {
-          const PointShape shape(true, combine(1., F, t, dF), dF);
-          return shape.derivatives(with_turn(
-              OfPoint::seeded_symmetric<HyperDual<0>>(shape.get_value(), shape.get_change(), 0),
-              constant_matrix<HyperDual<0>>(T)));
+          const PointShape   shape(true, combine(1., F, t, dF), dF);
+          const MatrixAlong &S      = shape.get();
+          const auto         turned = [&](const double step)
+          { return with_turn(combine(1., S.value, step, S.change), T); };
+          return shape.derivatives(
+              { with_turn(S.value, T), combine(0.5 / h, turned(h), -0.5 / h, turned(-h)) });
         };
         const auto at_F = derivatives_at(0.), before = derivatives_at(-h),
                    after = derivatives_at(h);
@@ -94,7 +66,7 @@ namespace Exemplar::Testing
             const auto energy_at = [&](const double sign)
             {
               const PointShape shape(true, combine(1., F, sign, unit), dF);
-              return contract(T, shape.get_value());
+              return contract(T, shape.get().value);
             };
             EXPECT_NEAR(at_F.by_dF[i][j], (energy_at(1.) - energy_at(-1.)) / (2. * h), 1e-8);
             EXPECT_NEAR(at_F.by_F[i][j], (after.by_dF[i][j] - before.by_dF[i][j]) / (2. * h), 1e-7);
@@ -102,34 +74,109 @@ namespace Exemplar::Testing
       }
     }
 
-    TEST(RegularPoint, ForcesAreDerivativesOfThePotential)
+    /// The derivatives of the slope of a law's potential with the factors of a patch.
+    PointSlope
+    slope_of(const CellLaw       law,
+             const MatrixAlong  &F,
+             const MatrixAlong  &wish,
+             const PatchFactors &factors,
+             const PointScene   &at = scene)
     {
-      using Regular = OfPoint::Regular;
-      using Number  = HyperDual<OfPoint::n_with_S>;
+      using Number            = OfPoint::Guarded;
+      const MatrixAlong shape = PointShape(true, F.value, F.change).get();
+      return slope_at<ElasticPoint>(
+          PointPlace<Number>(at, law, 0, changing<Number>(shape), changing<Number>(wish), 1.),
+          shape.change, wish.change, &factors);
+    }
+
+    MatrixAlong
+    moved(const MatrixAlong &A, const double t)
+    {
+      return { combine(1., A.value, t, A.change), A.change };
+    }
+
+    // The slope is a.grad Phi, so its derivative by the state along a is a.Phi''.a.
+    TEST(PointSlope, ChangesAlongTheDirectionAsItsDerivativesSay)
+    {
       std::mt19937 generator(7);
+      const double h = 1e-5;
+      for (const CellLaw law : { CellLaw::corotational, CellLaw::neo_hookean })
+        for (const double size : { 1., 0.05, -0.7 }) // with guards in the last two
+          for (int sample = 0; sample < 10; ++sample)
+          {
+            Matrix3<double> pinch = I;
+            pinch[2][2]           = size;
+            const MatrixAlong F{ random_F(generator) * pinch, random_matrix(generator) };
+            const MatrixAlong wish{ random_strain(generator), random_strain(generator) };
+            PatchFactors      factors = random_factors(generator);
+            for (OfPoint::Changing &factor : factors.numbers)
+              factor.by[0] = 0.;
+            const PointSlope found  = slope_of(law, F, wish, factors);
+            const auto       slopes = [&](const double t)
+            { return slope_of(law, moved(F, t), moved(wish, t), factors).by_volume; };
+            const auto derivatives
+                = PointShape(true, F.value, F.change).derivatives(found.by_shape);
+            const double expected = (slopes(h) - slopes(-h)) / (2. * h);
+            const double value    = contract(derivatives.by_F, F.change)
+                                 + contract(found.by_wish.change, wish.change);
+            EXPECT_NEAR(value, expected, 1e-6 * (std::abs(expected) + 1e6));
+          }
+    }
+
+    TEST(PointSlope, HasDerivativesByEtaAndByTheBoundOfTheGuard)
+    {
+      std::mt19937 generator(8);
+      const double h         = 1e-5;
+      int          n_guarded = 0;
       for (const CellLaw law : { CellLaw::corotational, CellLaw::neo_hookean })
         for (int sample = 0; sample < 10; ++sample)
         {
-          const PointShape      shape(true, random_F(generator), random_matrix(generator));
-          const Matrix3<double> wish = random_strain(generator), change = random_strain(generator);
-          const PatchFactors    factors = random_factors(generator);
-          const FactorsAtPoint  of_patches(&factors, 1);
-          const auto            found = regular_point<ElasticPoint>(
-              law, scene, place<Regular>(shape, wish, change), 0.7, of_patches);
-          ASSERT_TRUE(found);
-          const auto potential
-              = point_potential<ElasticPoint>(law, scene, place<Number>(shape, wish, change), 0.7,
-                                              of_patches)
-                    .potential;
-          const PointSlope slope = slope_of_stress(shape, { wish, change }, *found);
-          const double     scale = 1e7;
-          expect_equal(slope.stress.by_shape, OfPoint::by_shape(potential, shape), scale);
-          expect_equal(slope.stress.by_wish, OfPoint::by_symmetric(potential, OfPoint::wish),
-                       scale);
-          EXPECT_NEAR(slope.slope, potential.change, 1e-12 * (scale + std::abs(potential.change)));
-          for (std::size_t k = 0; k < OfPoint::n_constants; ++k)
-            EXPECT_NEAR(slope.by_constants[k], potential.change_by[k],
-                        1e-10 * std::abs(potential.change_by[k]) + 1e-12);
+          Matrix3<double> pinch = I;
+          pinch[2][2]           = -0.7;
+          const MatrixAlong  F{ random_F(generator) * pinch, random_matrix(generator) };
+          const MatrixAlong  wish{ random_strain(generator), random_strain(generator) };
+          const PatchFactors factors = random_factors(generator);
+          const PointSlope   found   = slope_of(law, F, wish, factors);
+          const auto         slopes  = [&](const double bound, const double eta)
+          {
+            PointScene there = scene;
+            there.examples.guard_bound += bound;
+            there.examples.importance += eta;
+            return slope_of(law, F, wish, factors, there).by_volume;
+          };
+          const double by_bound  = (slopes(h, 0.) - slopes(-h, 0.)) / (2. * h);
+          const double by_eta    = (slopes(0., h) - slopes(0., -h)) / (2. * h);
+          const double tolerance = 1e-5 * (std::abs(by_bound) + std::abs(by_eta));
+          EXPECT_NEAR(found.by_constants[OfPoint::guard_bound - 1], by_bound, tolerance);
+          EXPECT_NEAR(found.by_constants[OfPoint::eta - 1], by_eta, tolerance);
+          n_guarded += by_bound != 0.;
+        }
+      EXPECT_GT(n_guarded, 10);
+    }
+
+    // A patch of far stretched cells, so that its guard acts.
+    TEST(PatchPotential, DerivativesAreThoseOfItsEnergy)
+    {
+      const double      h    = 1e-5;
+      PatchSums<double> sums = { { { 2., 3., 1.1, 0.7, 12.4, 0.9, 0.3, 0.6, 1.3, 0.8, 9.8 } } };
+      for (const bool has_own : { false, true })
+        for (const bool is_volumetric : { false, true })
+        {
+          const PatchScene settings{ 0.5, true, is_volumetric, has_own };
+          const auto       found = patch_potential(settings, sums, 0.6);
+          for (std::size_t k = 0; k < sums.size; ++k)
+          {
+            const auto energy = [&](const double step)
+            {
+              PatchSums<double> there = sums;
+              there.numbers[k] += step;
+              return patch_potential(settings, there, 0.6).energy;
+            };
+            EXPECT_NEAR(found.by_sums.numbers[k], (energy(h) - energy(-h)) / (2. * h), 1e-8) << k;
+          }
+          const auto energy
+              = [&](const double eta) { return patch_potential(settings, sums, eta).energy; };
+          EXPECT_NEAR(found.by_importance, (energy(0.6 + h) - energy(0.6 - h)) / (2. * h), 1e-8);
         }
     }
   } // namespace

@@ -3,8 +3,7 @@
 #define exemplar_laws_with_derivatives_h
 
 #include <exemplar/kernels/cell_model.h>
-#include <exemplar/kernels/hyper_dual.h>
-#include <exemplar/run/adjoint/point_material.h>
+#include <exemplar/kernels/dual.h>
 
 // The laws of kernels/cell_model.h, whose templates take SIMD registers there and numbers with
 // derivatives here.

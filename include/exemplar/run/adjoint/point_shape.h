@@ -10,17 +10,21 @@
 namespace Exemplar
 {
   /// R^T P of an energy that has the derivative T by S: T + W with the skew W of Eq. (17).
-  template <typename Number>
-  Matrix3<Number>
-  with_turn(const Matrix3<Number> &S, const Matrix3<Number> &T)
+  inline Matrix3<double>
+  with_turn(const Matrix3<double> &S, const Matrix3<double> &T)
   {
-    Matrix3<Number> B = combine(Number(-1.), S, Number(0.), S);
+    Matrix3<double> B = combine(-1., S, 0., S);
     for (int i = 0; i < 3; ++i)
       B[i][i] += trace(S);
-    const Vector3<Number> turn   = cofactors(B) * axial_vector(commutator(S, T));
-    const Number          factor = Number(1.) / determinant(B);
-    return combine(Number(1.), T, factor, skew_matrix(turn));
+    return combine(1., T, 1.,
+                   skew_matrix(inverse_of_symmetric(B) * axial_vector(commutator(S, T))));
   }
+
+  /// A matrix, and its change along a direction.
+  struct MatrixAlong
+  {
+    Matrix3<double> value{}, change{};
+  };
 
   /// Derivatives by F, and by its change dF along a direction.
   struct ShapeDerivatives
@@ -34,65 +38,53 @@ namespace Exemplar
   public:
     /// Takes F and its change dF along a direction.
     PointShape(const bool has_rotations, const Matrix3<double> &F, const Matrix3<double> &dF)
-        : has_rotations(has_rotations), R(identity_matrix<double>()), turn{}, value(F), change(dF)
+        : has_rotations(has_rotations), R(identity_matrix<double>()), turn{}, gradient{ F, dF },
+          shape(gradient)
     {
       if (!has_rotations)
         return;
       R                       = closest_rotation(F);
-      value                   = symmetric_part(transpose_times(R, F));
+      shape.value             = symmetric_part(transpose_times(R, F));
       const Matrix3<double> M = transpose_times(R, dF);
       // Eq. (18): the equation of W with M in the place of the products
-      Matrix3<double> B = combine(-1., value, 0., value), skew;
+      Matrix3<double> B = combine(-1., shape.value, 0., shape.value), skew;
       for (int i = 0; i < 3; ++i)
       {
-        B[i][i] += trace(value);
+        B[i][i] += trace(shape.value);
         for (int j = 0; j < 3; ++j)
           skew[i][j] = M[i][j] - M[j][i];
       }
-      turn   = times(1. / determinant(B), skew_matrix(cofactors(B) * axial_vector(skew)));
-      change = symmetric_part(combine(1., M, -1., turn * value));
+      turn         = skew_matrix(inverse_of_symmetric(B) * axial_vector(skew));
+      shape.change = symmetric_part(combine(1., M, -1., turn * shape.value));
     }
 
-    /// The matrix S, or F.
-    const Matrix3<double> &
-    get_value() const
+    /// F and its change.
+    const MatrixAlong &
+    get_gradient() const
     {
-      return value;
+      return gradient;
     }
 
-    const Matrix3<double> &
-    get_change() const
+    /// The matrix S, or F, and its change.
+    const MatrixAlong &
+    get() const
     {
-      return change;
+      return shape;
     }
 
-    /// Whether the value is S, which is symmetric.
-    bool
-    is_turned() const
-    {
-      return has_rotations;
-    }
-
-    /// Derivatives by F and dF of a potential with this R^T P.
+    /// Derivatives by F and dF of the slope of a potential with this R^T P.
     ShapeDerivatives
-    derivatives(const Matrix3<HyperDual<0>> &of) const
+    derivatives(const MatrixAlong &of) const
     {
-      Matrix3<double> by_value, by_change;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-        {
-          by_change[i][j] = of[i][j].value;
-          by_value[i][j]  = of[i][j].change;
-        }
       if (!has_rotations)
-        return { by_value, by_change };
-      return { R * combine(1., turn * by_change, 1., by_value), R * by_change };
+        return { of.change, of.value };
+      return { R * combine(1., turn * of.value, 1., of.change), R * of.value };
     }
 
   private:
     bool            has_rotations;
     Matrix3<double> R, turn; ///< R and R^T dR
-    Matrix3<double> value, change;
+    MatrixAlong     gradient, shape;
   };
 } // namespace Exemplar
 

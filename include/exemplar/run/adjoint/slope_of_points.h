@@ -3,6 +3,7 @@
 #define exemplar_slope_of_points_h
 
 #include <exemplar/base/loop_parts.h>
+#include <exemplar/run/adjoint/example_strains.h>
 #include <exemplar/run/adjoint/point_slope.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
@@ -12,7 +13,7 @@
 
 namespace Exemplar
 {
-  /// `Part` specifies the potential: Part::Evaluation of point_potential.h, its factors
+  /// `Part` specifies the potential: Part::Evaluation of point_stress.h, its factors
   /// share(point) and share_of_patch(patch), wish(point), patch_scene(law), and
   /// square_of_bound(patch, point) for the guard (26). add_wish() and add_guard_bound() pass on
   /// derivatives by the wish and by p_0.
@@ -24,9 +25,10 @@ namespace Exemplar
     SlopeOfPoints(const Problem &problem, const Vector &along, Part &part)
         : problem(problem), along(along), fe_space(problem.body.fe_space),
           patches(problem.body.patches),
-          laws(part.get_laws()), scene{ problem.examples.poses.constants(),
-                                        blended_part(problem.parameters.examples.energy),
-                                        std::min<double>(1., patches.size()) },
+          laws(part.get_laws()), scene{ { problem.body.material, problem.body.cell_material,
+                                          problem.parameters.examples.acts_on, patches.size() > 0 },
+                                        problem.examples.poses.constants(),
+                                        blended_part(problem.parameters.examples.energy) },
           part(part)
     {
       of_patches.resize(patches.size());
@@ -36,24 +38,16 @@ namespace Exemplar
                       for (std::size_t patch = begin; patch < end; ++patch)
                         of_patches[patch] = potential_of_patch(patch);
                     });
-      for (const OfPatch &potential : of_patches)
-      {
-        PatchFactors of_patch;
-        for (std::size_t k = 0; k < PatchFactors::size; ++k)
-          of_patch.numbers[k] = Changing(potential.by[k], potential.change_by[k]);
-        factors.push_back(of_patch);
-      }
     }
 
-    /// The slope itself, by direct evaluation.
+    /// The slope itself.
     double
     slope() const
     {
       double sum = 0.;
-      for_each_found<double>([this](const unsigned int point) { return slope_of_energy(point); },
+      for_each_found<double>([this](const unsigned int point)
+                             { return slope_of(point, shape_at(point)); },
                              [&](const unsigned int, const double of_point) { sum += of_point; });
-      for (const OfPatch &potential : of_patches)
-        sum += potential.change;
       return sum;
     }
 
@@ -62,24 +56,30 @@ namespace Exemplar
     add_to(SlopeDerivatives &sums)
     {
       for (const OfPatch &potential : of_patches)
-        sums.by_importance += potential.change_by[PatchFactors::size];
+        sums.by_importance += potential.by_importance.by[0];
       double by_guard_bound = 0.;
-      for_each_found<Contribution>([this](const unsigned int point) { return contribution(point); },
-                                   [&](const unsigned int point, const Contribution &of_point)
-                                   {
-                                     add(point, of_point, sums);
-                                     by_guard_bound += of_point.by_guard_bound;
-                                   });
+      for_each_found<Contribution>(
+          [this](const unsigned int point)
+          {
+            const PointShape shape = shape_at(point);
+            return is_guarded(point, shape) ? contribution<OfPoint::Guarded>(point, shape)
+                                            : contribution<OfPoint::Regular>(point, shape);
+          },
+          [&](const unsigned int point, const Contribution &of_point)
+          {
+            add(point, of_point, sums);
+            by_guard_bound += of_point.by_constants[OfPoint::guard_bound - 1];
+          });
       if (by_guard_bound != 0.)
         part.add_guard_bound(by_guard_bound, sums);
     }
 
   private:
-    using Changing = HyperDual<0>;
+    using Changing = OfPoint::Changing;
 
     static constexpr std::size_t n_parts = 16; ///< of loops, whatever the threads
 
-    using OfPatch = HyperDual<PatchFactors::size + 1>; // and by eta
+    using OfPatch = PatchPotential<Changing>;
 
     /// Evaluate find(point) at all points in parallel, some at a time, and take the results in the
     /// points' order.
@@ -104,108 +104,37 @@ namespace Exemplar
       }
     }
 
-    /// Slope of a point's energy without its patch.
-    double
-    slope_of_energy(const unsigned int point) const
-    {
-      const Point at = place_of(point);
-      return fe_space.volume(point)
-             * with_place<Changing>(at,
-                                    [&](const auto &place) {
-                                      return point_potential<Part::template Evaluation>(
-                                          at.law, scene, place, part.share(point), {});
-                                    })
-                   .potential.change;
-    }
-
-    FactorsAtPoint
+    /// The factors of a point's patch; none without patches.
+    const PatchFactors *
     factors_at(const unsigned int point) const
     {
-      if (factors.empty())
-        return {};
-      return { &factors[patches.of_point(point)], 1 };
+      return of_patches.empty() ? nullptr : &of_patches[patches.of_point(point)].by_sums;
     }
 
-    /// The variables of a point's potential.
-    struct Point
+    /// Whether the guard of Eq. (16) acts at a point.
+    bool
+    is_guarded(const unsigned int point, const PointShape &shape) const
     {
-      CellLaw         law;
-      Matrix3<double> F, dF;
-      PointShape      shape;
-      Wish            wish;
-      PointMaterial   material;
-    };
-
-    Point
-    place_of(const unsigned int point) const
-    {
-      const unsigned int    cell = fe_space.cell_of(point);
-      const Matrix3<double> F    = fe_space.deformation_gradient(point, problem.state.positions);
-      const Matrix3<double> dF   = fe_space.deformation_gradient(point, along);
-      return { laws[cell],
-               F,
-               dF,
-               PointShape(traits_of(laws[cell]).has_rotations, F, dF),
-               part.wish(point),
-               PointMaterial(problem.body.material, problem.body.cell_material,
-                             problem.parameters.examples.acts_on, scene.part_of_patches, cell) };
+      return traits_of(laws[fe_space.cell_of(point)]).has_guard
+             && product_of_sums(shape.get().value) < scene.examples.guard_bound;
     }
 
-    /// function(place) with the variables as numbers with derivatives.
-    template <typename Number, typename Function>
-    auto
-    with_place(const Point &point, const Function &function) const
+    PointShape
+    shape_at(const unsigned int point) const
     {
-      const Number eta = OfPoint::seeded<Number>(scene.examples.importance, 0., OfPoint::eta);
-      const auto   constant_of = [](const double value, const std::size_t k)
-      { return OfPoint::seeded<Number>(value, 0., k); };
-      const Material::BodyConstants &body = point.material.body;
-      const PointPlace<Number>       at{
-        OfPoint::seeded_shape<Number>(point.shape),
-        OfPoint::seeded_symmetric<Number>(point.wish.value, point.wish.change, OfPoint::wish),
-        MaterialFunctions<Number>(point.material, constant_of(body.youngs_modulus, OfPoint::E),
-                                  constant_of(body.poissons_ratio, OfPoint::nu), eta),
-        eta
+      return PointShape(traits_of(laws[fe_space.cell_of(point)]).has_rotations,
+                        fe_space.deformation_gradient(point, problem.state.positions),
+                        fe_space.deformation_gradient(point, along));
+    }
+
+    template <typename Number>
+    PointPlace<Number>
+    place_of(const unsigned int point, const MatrixAlong &shape, const MatrixAlong &wish) const
+    {
+      const unsigned int cell = fe_space.cell_of(point);
+      return {
+        scene, laws[cell], cell, changing<Number>(shape), changing<Number>(wish), part.share(point)
       };
-      return function(at);
-    }
-
-    PointSlope
-    slope_of(const Point &point, const double share, const FactorsAtPoint &of_patches) const
-    {
-      const auto found
-          = with_place<OfPoint::Regular>(point,
-                                         [&](const auto &at) {
-                                           return regular_point<Part::template Evaluation>(
-                                               point.law, scene, at, share, of_patches);
-                                         });
-      if (found)
-        return slope_of_stress(point.shape, point.wish, *found);
-      if (point.shape.is_turned())
-        return slope_of_potential<OfPoint::n_with_S>(point, share, of_patches);
-      return slope_of_potential<OfPoint::n_with_F>(point, share, of_patches);
-    }
-
-    /// Slope where the law does not give the forces, by derivatives of the potential.
-    template <std::size_t n_by>
-    PointSlope
-    slope_of_potential(const Point          &point,
-                       const double          share,
-                       const FactorsAtPoint &of_patches) const
-    {
-      using Number            = HyperDual<n_by>;
-      const auto    found     = with_place<Number>(point,
-                                            [&](const auto &at) {
-                                              return point_potential<Part::template Evaluation>(
-                                                  point.law, scene, at, share, of_patches);
-                                            });
-      const Number &potential = found.potential;
-      return { potential.change,
-               { OfPoint::by_shape(potential, point.shape),
-                 OfPoint::by_symmetric(potential, OfPoint::wish) },
-               { { potential.change_by[OfPoint::E], potential.change_by[OfPoint::nu],
-                   potential.change_by[OfPoint::eta] } },
-               found.by_guard_bound.change };
     }
 
     PatchFactors
@@ -214,10 +143,8 @@ namespace Exemplar
       PatchFactors sums;
       for (const unsigned int point : patches.points(patch))
       {
-        const Point  at_point = place_of(point);
-        PatchFactors of_point = with_place<Changing>(
-            at_point, [&](const auto &at)
-            { return patch_sums<Part::template Evaluation>(at_point.law, scene, at); });
+        PatchFactors of_point = patch_sums<Part::template Evaluation>(
+            place_of<Changing>(point, shape_at(point).get(), part.wish(point)));
         of_point[PatchSum::bound] = Changing(part.square_of_bound(patch, point));
         const Changing volume(fe_space.volume(point));
         for (std::size_t k = 0; k < PatchFactors::size; ++k)
@@ -229,44 +156,52 @@ namespace Exemplar
     OfPatch
     potential_of_patch(const unsigned int patch) const
     {
-      const PatchFactors sums = sums_of(patch);
-      PatchSums<OfPatch> seeded_sums;
-      for (std::size_t k = 0; k < PatchFactors::size; ++k)
-      {
-        seeded_sums.numbers[k]       = constant<OfPatch>(sums.numbers[k]);
-        seeded_sums.numbers[k].by[k] = 1.;
-      }
-      const auto law = traits_of(laws[fe_space.cell_of(patches.points(patch).front())]);
-      OfPatch    eta(scene.examples.importance);
-      eta.by[PatchFactors::size] = 1.;
-      return OfPatch(part.share_of_patch(patch))
-             * patch_potential(part.patch_scene(scene, law), seeded_sums, eta);
+      const auto     law   = traits_of(laws[fe_space.cell_of(patches.points(patch).front())]);
+      OfPatch        found = patch_potential(part.patch_scene(scene, law), sums_of(patch),
+                                             Changing(scene.examples.importance));
+      const Changing share(part.share_of_patch(patch));
+      for (Changing &factor : found.by_sums.numbers)
+        factor *= share;
+      return found;
+    }
+
+    double
+    slope_of(const unsigned int point, const PointShape &shape) const
+    {
+      using Number            = Dual<0>;
+      const MatrixAlong wish  = part.wish(point);
+      const auto        found = stress_at<Part::template Evaluation>(
+          place_of<Number>(point, shape.get(), wish), factors_at(point));
+      return fe_space.volume(point)
+             * work_along(found, shape.get().change, wish.change,
+                          [](const Number &number) { return number.value; });
     }
 
     /// A point's part of the slope and its derivatives, to be added at its nodes and its cell.
     struct Contribution
     {
-      Matrix3<double>    by_F, by_gradients;
-      Wish               by_wish;
-      OfPoint::Constants by_constants;
-      double             slope, by_guard_bound;
+      Matrix3<double>                    by_F, by_gradients;
+      MatrixAlong                        by_wish;
+      decltype(PointSlope::by_constants) by_constants;
+      double                             by_volume; ///< times the volume
     };
 
+    template <typename Number>
     Contribution
-    contribution(const unsigned int point) const
+    contribution(const unsigned int point, const PointShape &shape) const
     {
-      const auto       of_patches = factors_at(point);
-      const Point      at         = place_of(point);
-      const double     V          = fe_space.volume(point);
-      const PointSlope found      = slope_of(at, part.share(point), of_patches);
-      const auto [by_F, by_dF]    = at.shape.derivatives(found.stress.by_shape);
+      const PatchFactors *factors = factors_at(point);
+      const double        V       = fe_space.volume(point);
+      const MatrixAlong   wish    = part.wish(point);
+      const PointSlope    found   = slope_at<Part::template Evaluation>(
+          place_of<Number>(point, shape.get(), wish), shape.get().change, wish.change, factors);
+      const auto [by_F, by_dF] = shape.derivatives(found.by_shape);
+      const auto &[F, dF]      = shape.get_gradient();
       Contribution result{ times(V, by_F),
-                           combine(V, transpose_times(at.F, by_F), V,
-                                   transpose_times(at.dF, by_dF)),
-                           slope_by_wish(times(Changing(V), found.stress.by_wish)),
+                           combine(V, transpose_times(F, by_F), V, transpose_times(dF, by_dF)),
+                           { times(V, found.by_wish.change), times(V, found.by_wish.value) },
                            found.by_constants,
-                           V * (found.slope + of_guard_bound(point, of_patches)),
-                           V * found.by_guard_bound };
+                           V * (found.by_volume + of_guard_bound(point, factors)) };
       for (double &number : result.by_constants)
         number *= V;
       return result;
@@ -274,13 +209,11 @@ namespace Exemplar
 
     /// The point's part of the change of the bound of its patch's guard, through its volume.
     double
-    of_guard_bound(const unsigned int point, const FactorsAtPoint &of_patches) const
+    of_guard_bound(const unsigned int point, const PatchFactors *factors) const
     {
-      double sum = 0.;
-      for (const PatchFactors &factor : of_patches)
-        sum += factor[PatchSum::bound].change
-               * part.square_of_bound(patches.of_point(point), point);
-      return sum;
+      return factors == nullptr ? 0.
+                                : (*factors)[PatchSum::bound].by[0]
+                                      * part.square_of_bound(patches.of_point(point), point);
     }
 
     void
@@ -290,23 +223,22 @@ namespace Exemplar
       add_forces(fe_space, point, of_point.by_F, sums.by_positions);
       Matrix3<double> by_gradients = of_point.by_gradients;
       part.add_wish(point, of_point.by_wish, factors_at(point), sums, by_gradients);
-      sums.by_young[cell] += of_point.by_constants[OfPoint::E];
-      sums.by_poisson[cell] += of_point.by_constants[OfPoint::nu];
-      sums.by_importance += of_point.by_constants[OfPoint::eta];
+      sums.by_young[cell] += of_point.by_constants[OfPoint::E - 1];
+      sums.by_poisson[cell] += of_point.by_constants[OfPoint::nu - 1];
+      sums.by_importance += of_point.by_constants[OfPoint::eta - 1];
       add_at_vertices(fe_space, cell,
-                      combine(of_point.slope, identity_matrix<double>(), -1., by_gradients),
+                      combine(of_point.by_volume, identity_matrix<double>(), -1., by_gradients),
                       sums.by_rest_positions);
     }
 
-    const Problem            &problem;
-    const Vector             &along;
-    const FESpace            &fe_space;
-    const Patches            &patches;
-    const LawsOfCells        &laws;
-    const PointScene          scene;
-    Part                     &part;
-    std::vector<OfPatch>      of_patches; ///< potential of each patch
-    std::vector<PatchFactors> factors;    ///< derivatives of the potentials by the sums
+    const Problem       &problem;
+    const Vector        &along;
+    const FESpace       &fe_space;
+    const Patches       &patches;
+    const LawsOfCells   &laws;
+    const PointScene     scene;
+    Part                &part;
+    std::vector<OfPatch> of_patches; ///< potential of each patch
   };
 } // namespace Exemplar
 
