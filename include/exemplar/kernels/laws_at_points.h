@@ -8,9 +8,10 @@
 #include <array>
 #include <utility>
 
-// The functions of LawFunctions for each law, from the members of its cell. As with loops_io.h, only
-// the files that compile them for an instruction set include this. No deal.II header here: see
-// matrix3.h.
+// The functions of LawFunctions for each law, from the members of its cell. What runs in each
+// iteration is flat, all of it inlined, as a cell of many matrices would otherwise go through memory
+// between its members. As with loops_io.h, only the files that compile them for an instruction set
+// include this. No deal.II header here: see matrix3.h.
 
 namespace Exemplar::Laws
 {
