@@ -23,7 +23,7 @@ namespace Exemplar
     constexpr double sharp_angle = 60.; // degrees
     constexpr double min_chain   = 5.;  // edge lengths
     constexpr double max_crowd
-        = 5.; // edge lengths in a cube of that side; corners of solids have 3
+        = 7.; // edge lengths in a cube of that side; corners of solids have 3
     constexpr unsigned int n_iterations = 5;
     constexpr double       tip_spacing  = .5; // edge lengths
 
