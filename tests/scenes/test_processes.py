@@ -19,6 +19,7 @@ BEFORE = "exemplar: Interrupted before a run had begun.\n"
 
 
 signal.signal(signal.SIGHUP, signal.SIG_DFL)  # whoever starts the tests in the background may have it ignored, and programs inherit that
+os.environ["UCX_DEBUG_SIGNO"] = "SIGUSR2"  # UCX, which Open MPI 5 loads, swallows SIGHUP until the program has its own handler
 
 
 class ProcessTest(SceneTest):
