@@ -112,8 +112,8 @@ namespace Exemplar
                          std::string(name, length));
     }
 
-    /// Wait until the reader of a pipe has taken what stands in it: Open MPI 5 loses what it has not read
-    /// when it ends the processes.
+    /// Wait until the reader of a pipe has taken what stands in it. Open MPI says of MPI_Abort that
+    /// output may be lost, depending on when it ends the processes.
     void
     wait_for_reader(const int pipe)
     {
