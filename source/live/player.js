@@ -104,11 +104,13 @@
   const bodies = runs.map((run, i) => new Body(run, i));
   const longest = bodies.reduce((a, b) => (b.timeOf(b.frames - 1) > a.timeOf(a.frames - 1) ? b : a));
   const end = longest.timeOf(longest.frames - 1);
+  // Where nothing has a kinetic energy, t counts parts of a load and no seconds.
+  const unit = runs.some(({ plots }) => "energy_kinetic" in plots) ? " s" : "";
 
   function show(time) {
     bodies.forEach((body) => body.show(body.frameAt(time)));
     find("scrub").value = longest.shown;
-    find("time").value = `t = ${longest.timeOf(longest.shown).toFixed(2)} s`;
+    find("time").value = `t = ${longest.timeOf(longest.shown).toFixed(2)}${unit}`;
     drawPlots(longest.timeOf(longest.shown));
   }
 
@@ -183,7 +185,7 @@
       pen.stroke();
       pen.globalAlpha = 1;
     }
-    pen.fillText(`${short(end)} s`, target.width - 8, target.height - 8);
+    pen.fillText(`${short(end)}${unit}`, target.width - 8, target.height - 8);
     pen.textAlign = "left";
     pen.fillText("0", left, target.height - 8);
     pen.lineWidth = 3;

@@ -252,8 +252,8 @@ namespace Exemplar::Live
     Problem &problem = stage.get_problem();
     if (wish.colour == "energy" || wish.colour == "det F")
     {
-      const CellResults cells = problem.potential.get_cells().cell_results(problem.state.positions,
-                                                                           problem.state.weights);
+      const CellResults cells
+          = problem.cells.cell_results(problem.state.positions, problem.state.weights);
       return at_vertices(wish.colour == "energy" ? cells.strain_energy_density : cells.det_F,
                          problem.body.mesh, surface);
     }

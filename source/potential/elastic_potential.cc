@@ -98,12 +98,16 @@ namespace Exemplar
                                                          parts.fe_space, parts.material));
   }
 
-  NodePairs
-  ElasticPotential::couplings(const bool in_parts) const
+  SymmetricPattern
+  ElasticPotential::make_pattern(const NodePairs &more, const bool in_parts) const
   {
-    return in_parts && couples_by_products()
-               ? NodePairs()
-               : PatchScatter::couplings(parts.patches, parts.fe_space);
+    NodePairs pairs = in_parts && couples_by_products()
+                          ? NodePairs()
+                          : PatchScatter::couplings(parts.patches, parts.fe_space);
+    pairs.insert(pairs.end(), more.begin(), more.end());
+    SymmetricPattern pattern   = Exemplar::make_pattern(parts.fe_space, pairs, parts.free_dofs);
+    pattern.products_are_apart = in_parts;
+    return pattern;
   }
 
   void

@@ -49,13 +49,14 @@ namespace Exemplar
     evaluation.potential -= part * exchange.product(forces, displacement);
   }
 
-  IncrementalPotential::IncrementalPotential(const ElasticParts &parts,
-                                             PotentialTerms      new_terms,
-                                             TimeIntegrator     *integrator,
-                                             const bool          in_parts)
-      : terms(std::move(new_terms)), cells(parts), tangent(parts, cells, terms, in_parts),
-        weights(parts.weights), integrator(integrator), fe_space(parts.fe_space),
-        free_dofs(parts.free_dofs)
+  IncrementalPotential::IncrementalPotential(ElasticBody    &body,
+                                             ExampleWeights &weights,
+                                             const FreeDofs &free_dofs,
+                                             PotentialTerms  new_terms,
+                                             TimeIntegrator *integrator,
+                                             const bool      in_parts)
+      : terms(std::move(new_terms)), body(body), tangent(body, free_dofs, terms, in_parts),
+        weights(weights), integrator(integrator), free_dofs(free_dofs)
   {
   }
 
@@ -78,8 +79,7 @@ namespace Exemplar
   IncrementalPotential::begin_step(const State &start, const double step_size)
   {
     body.set_history(start.history);
-    body.set_step_size(
-        integrator != nullptr ? step_size : std::numeric_limits<double>::infinity());
+    body.set_step_size(integrator != nullptr ? step_size : std::numeric_limits<double>::infinity());
     if (integrator != nullptr)
     {
       integrator->begin_step(start, step_size);

@@ -51,9 +51,7 @@ namespace Exemplar
   }
 
   void
-  InertiaTerm::attach(const SymmetricPattern &new_pattern,
-                      const FreeDofs         &new_free_dofs,
-                      CellField & /*cells*/)
+  InertiaTerm::attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs)
   {
     pattern   = &new_pattern;
     free_dofs = &new_free_dofs;

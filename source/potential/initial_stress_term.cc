@@ -29,24 +29,21 @@ namespace Exemplar
   } // namespace
 
   void
-  InitialStressTerm::attach(const SymmetricPattern &pattern,
-                            const FreeDofs         &free_dofs,
-                            CellField              &new_cells)
+  InitialStressTerm::attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs)
   {
-    cells = &new_cells;
     scatter.emplace(fe_space, pattern, free_dofs);
   }
 
   bool
   InitialStressTerm::turns(const unsigned int point) const
   {
-    return traits_of(cells->get_batches().law(point)).has_rotations;
+    return traits_of(cells.get_batches().law(point)).has_rotations;
   }
 
   void
   InitialStressTerm::add(const TermPoint &at, ElasticSums &sums)
   {
-    cells->refresh_rotations();
+    cells.refresh_rotations();
     std::vector<double> forces;
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
@@ -55,7 +52,7 @@ namespace Exemplar
       const Matrix3<double>  F      = fe_space.deformation_gradient(point, at.positions);
       if (turns(point))
       {
-        const Matrix3<double> R = cells->rotation(point);
+        const Matrix3<double> R = cells.rotation(point);
         const InitialStress   state(tau, R, F);
         sums->energy += volume * state.energy();
         fe_space.nodal_forces(point, R * state.force(), forces);
@@ -82,14 +79,14 @@ namespace Exemplar
                                 const Vector        &positions,
                                 std::vector<double> &blocks) const
   {
-    const Matrix3<double> R = cells->rotation(point);
+    const Matrix3<double> R = cells.rotation(point);
     const InitialStress state(stresses[point], R, fe_space.deformation_gradient(point, positions));
     const auto          by_F  = responses(state, R);
     const auto          nodes = fe_space.nodes(fe_space.cell_of(point));
     std::vector<Vector3<double>> g; // in the order of the loops
     for (unsigned int a = 0; a < nodes.size(); ++a)
     {
-      const auto node = std::find(nodes.begin(), nodes.end(), cells->node(point, a));
+      const auto node = std::find(nodes.begin(), nodes.end(), cells.node(point, a));
       g.push_back(fe_space.gradients(point)[node - nodes.begin()]);
     }
     double *entry = blocks.data();
@@ -117,7 +114,7 @@ namespace Exemplar
   {
     if (kind == Tangent::convex)
       return;
-    cells->refresh_rotations();
+    cells.refresh_rotations();
     const auto          n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
     const std::size_t   n_blocks = n_block_columns(nodes_per_cell(fe_space.element()));
     std::vector<double> blocks;

@@ -36,14 +36,14 @@ namespace Exemplar
     }
   } // namespace
 
-  PotentialTangent::PotentialTangent(const ElasticParts   &parts,
-                                     ElasticPotential     &cells,
+  PotentialTangent::PotentialTangent(ElasticBody          &body,
+                                     const FreeDofs       &free_dofs,
                                      const PotentialTerms &terms,
                                      const bool            in_parts)
-      : parts(parts), cells(cells), terms(terms)
+      : body(body), free_dofs(free_dofs), terms(terms)
   {
     make_pattern_of_couplings(in_parts);
-    cells.attach(pattern);
+    body.attach(pattern);
     for (const auto &term : terms)
       attach(*term);
   }
@@ -51,27 +51,21 @@ namespace Exemplar
   void
   PotentialTangent::attach(PotentialTerm &term)
   {
-    term.attach(pattern, parts.free_dofs, cells.get_field());
+    term.attach(pattern, free_dofs);
   }
 
   void
   PotentialTangent::make_pattern_of_couplings(const bool in_parts)
   {
-    const auto make = [&](const NodePairs &pairs)
-    {
-      SymmetricPattern made   = make_pattern(parts.fe_space, pairs, parts.free_dofs);
-      made.products_are_apart = in_parts;
-      return made;
-    };
-    NodePairs all        = cells.couplings(in_parts);
     couplings            = couplings_of(terms);
-    const bool has_plain = plain != nullptr && plain_of == parts.free_dofs.version()
+    const bool has_plain = plain != nullptr && plain_of == free_dofs.version()
                            && plain->products_are_apart == in_parts;
     if (!has_plain)
-      plain = couplings.empty() ? nullptr : std::make_shared<const SymmetricPattern>(make(all));
-    plain_of = parts.free_dofs.version();
-    all.insert(all.end(), couplings.begin(), couplings.end());
-    pattern       = make(all);
+      plain = couplings.empty()
+                  ? nullptr
+                  : std::make_shared<const SymmetricPattern>(body.make_pattern({}, in_parts));
+    plain_of      = free_dofs.version();
+    pattern       = body.make_pattern(couplings, in_parts);
     pattern.plain = plain;
   }
 
@@ -81,7 +75,7 @@ namespace Exemplar
     const unsigned int version = pattern.version;
     make_pattern_of_couplings(pattern.products_are_apart);
     pattern.version = version + 1;
-    cells.attach(pattern);
+    body.attach(pattern);
     for (const auto &term : terms)
       attach(*term);
   }
@@ -89,7 +83,7 @@ namespace Exemplar
   void
   PotentialTangent::follow_couplings()
   {
-    if (parts.free_dofs.exchange().any(couplings != couplings_of(terms)))
+    if (free_dofs.exchange().any(couplings != couplings_of(terms)))
       renew_pattern();
   }
 
@@ -113,7 +107,7 @@ namespace Exemplar
     std::fill(values.begin(), values.end(), 0.);
     if (products != nullptr)
       products->clear();
-    cells.assemble_tangent(kind, positions, at_weights, values, columns, products);
+    body.assemble_tangent(kind, positions, at_weights, values, columns, products);
     for (const auto &term : terms)
       term->add_tangent({ positions, at_weights }, kind, values, columns);
   }

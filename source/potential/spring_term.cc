@@ -20,9 +20,7 @@ namespace Exemplar
   } // namespace
 
   void
-  SpringTerm::attach(const SymmetricPattern &new_pattern,
-                     const FreeDofs         &new_free_dofs,
-                     CellField & /*cells*/)
+  SpringTerm::attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs)
   {
     pattern   = &new_pattern;
     free_dofs = &new_free_dofs;

@@ -41,9 +41,7 @@ namespace Exemplar::Python
       }
 
       void
-      attach(const SymmetricPattern &new_pattern,
-             const FreeDofs         &new_free_dofs,
-             CellField & /*cells*/) override
+      attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs) override
       {
         pattern   = &new_pattern;
         free_dofs = &new_free_dofs;

@@ -130,7 +130,7 @@ namespace Exemplar
       potential.get_body().update_rotations(from.positions);
       potential.get_body().evaluate(from.positions, from.weights, evaluation.elastic);
       potential.get_body().add_response(tangent, displacement, from.positions, from.weights,
-                                         evaluation.elastic);
+                                        evaluation.elastic);
       potential.add_terms(from.positions, evaluation);
       if (!has_factor)
         system.factorize(from.positions, from.weights, tangent == Tangent::convex ? 1. : 0.);
@@ -251,7 +251,8 @@ namespace Exemplar
   Newton::save(boost::archive::binary_oarchive &archive) const
   {
     const Vector positions = whole(potential.get_free_dofs().exchange(), accepted.positions);
-    const std::vector<double> history = potential.cell_order().whole(accepted.history);
+    const std::vector<double> history
+        = potential.get_body().history_order().whole(accepted.history);
     archive &positions &accepted.weights &history;
   }
 
@@ -260,7 +261,7 @@ namespace Exemplar
   {
     accepted = {};
     archive &accepted.positions &accepted.weights &accepted.history;
-    accepted.history   = potential.cell_order().part(accepted.history);
+    accepted.history   = potential.get_body().history_order().part(accepted.history);
     accepted.positions = part(potential.get_free_dofs().exchange(), accepted.positions);
   }
 

@@ -348,7 +348,7 @@ namespace Exemplar
     of_body.positions          = whole(free_dofs.exchange(), history.positions);
     for (Vector *field : of_body.start.nodal_fields())
       *field = whole(free_dofs.exchange(), *field);
-    of_body.start.history = potential.cell_order().whole(history.start.history);
+    of_body.start.history = potential.get_body().history_order().whole(history.start.history);
     body_lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.whole(vector); });
     archive &of_body &next &body_lbfgs; // several processes have no next one
     prediction.save(archive);
@@ -362,7 +362,7 @@ namespace Exemplar
     history.positions = part(free_dofs.exchange(), history.positions);
     for (Vector *field : history.start.nodal_fields())
       *field = part(free_dofs.exchange(), *field);
-    history.start.history = potential.cell_order().part(history.start.history);
+    history.start.history = potential.get_body().history_order().part(history.start.history);
     lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.part(vector); });
     prediction.load(archive);
     metric.clear();

@@ -25,7 +25,7 @@ namespace
 
     // The matrix's pattern and the unknowns; called again when handles take or let go of nodes.
     void
-    attach(const SymmetricPattern &new_pattern, const FreeDofs &dofs, CellField &) override
+    attach(const SymmetricPattern &new_pattern, const FreeDofs &dofs) override
     {
       pattern   = &new_pattern;
       free_dofs = &dofs;

@@ -221,7 +221,7 @@ namespace Exemplar::Testing
                   const LawsOfCells &laws,
                   const Examples    &examples,
                   const FreeDofs    &free_dofs)
-        : MatrixPattern{ make_pattern(body.fe_space, couplings_of(body), free_dofs),
+        : MatrixPattern{ Exemplar::make_pattern(body.fe_space, couplings_of(body), free_dofs),
                          body.examples(ExampleParameters()) },
           ElasticPotential({ laws, body.fe_space, body.material, body.cell_material, body.patches,
                              *given(examples).poses, *given(examples).weights, free_dofs })
@@ -231,10 +231,9 @@ namespace Exemplar::Testing
 
     /// From now on the pattern is that of the cells.
     void
-    assemble_in_parts(const Body &body, const FreeDofs &free_dofs)
+    assemble_in_parts()
     {
-      matrix_pattern                    = make_pattern(body.fe_space, {}, free_dofs);
-      matrix_pattern.products_are_apart = true;
+      matrix_pattern = ElasticPotential::make_pattern({}, true);
       attach(matrix_pattern);
     }
 

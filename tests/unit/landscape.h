@@ -84,7 +84,7 @@ namespace Exemplar::Testing
     }
 
     void
-    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &) override
+    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs) override
     {
       for (unsigned int i = 0; i < 2; ++i)
         diagonal[i]
@@ -161,10 +161,9 @@ namespace Exemplar::Testing
           free_dofs(body.fe_space.n_dofs(), all_but_two(), Exchange::serial()),
           none(body.examples(ExampleParameters())),
           handles({}, body.mesh, body.fe_space, TimeAxis::of_increments(TimeParameters())),
-          potential({ CellLaw::linear, body.fe_space, body.material, body.material, no_patches(),
-                      *none.poses, *none.weights, free_dofs },
-                    terms(landscapes),
-                    nullptr),
+          cells({ CellLaw::linear, body.fe_space, body.material, body.material, no_patches(),
+                  *none.poses, *none.weights, free_dofs }),
+          potential(cells, *none.weights, free_dofs, terms(landscapes), nullptr),
           system(
               potential, [this] { return plain_system(); }, clock, false)
     {
@@ -202,6 +201,7 @@ namespace Exemplar::Testing
     StepClock                         clock{ Phase::evaluate };
     const Examples                    none;
     const Handles                     handles;
+    ElasticPotential                  cells;
     IncrementalPotential              potential;
     StepSystem                        system;
     State                             state;

@@ -47,7 +47,7 @@ namespace Exemplar::Testing
     }
 
     void
-    attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs, CellField &) override
+    attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs) override
     {
       pattern   = &new_pattern;
       free_dofs = &new_free_dofs;

@@ -13,6 +13,8 @@
 
 namespace Exemplar
 {
+  class CellOrder;
+
   /// Pairs of nodes whose degrees of freedom a matrix couples.
   using NodePairs = std::vector<std::pair<unsigned int, unsigned int>>;
 
@@ -24,17 +26,15 @@ namespace Exemplar
   public:
     virtual ~ElasticBody() = default;
 
-    /// Pairs of nodes that its tangent couples beside those that share a cell; `in_parts`: but those of outer products.
-    virtual NodePairs
-    couplings(bool in_parts) const
-        = 0;
+    /// The pattern of its tangent and these couplings; `in_parts`: without the couplings of outer products.
+    virtual SymmetricPattern
+    make_pattern(const NodePairs &more, bool in_parts) const = 0;
 
     /// Whether its tangent has outer products, which a pattern may be without.
     virtual bool
-    couples_by_products() const
-        = 0;
+    couples_by_products() const = 0;
 
-    /// The pattern, with the couplings(), or what is held, is another from now on. It outlives the body.
+    /// The pattern, of make_pattern(), or what is held, is another from now on. It outlives the body.
     virtual void
     attach(const SymmetricPattern &pattern)
         = 0;
@@ -60,10 +60,13 @@ namespace Exemplar
     set_step_size(double size)
         = 0;
 
+    /// How what processes have of State::history becomes that of the whole body.
+    virtual const CellOrder &
+    history_order() const = 0;
+
     /// Whether a law has history variables.
     virtual bool
-    remembers() const
-        = 0;
+    remembers() const = 0;
 
     /// Let the laws remember this, in the layout of State::history; empty: nothing.
     virtual void
@@ -72,8 +75,7 @@ namespace Exemplar
 
     /// What the laws remember after a step that ends at these positions, of which the rotations are.
     virtual std::vector<double>
-    advance_history(const Vector &positions)
-        = 0;
+    advance_history(const Vector &positions) = 0;
 
     /// Let the rotations be those of these positions.
     virtual void
@@ -121,23 +123,19 @@ namespace Exemplar
 
     /// c_i with dPsi/dw = H w - c at these positions [J].
     virtual std::vector<double>
-    weight_linear_term(const Vector &positions, RotationUse rotations = RotationUse::keep)
-        = 0;
+    weight_linear_term(const Vector &positions, RotationUse rotations = RotationUse::keep) = 0;
 
     /// A residual force [N] that is nothing but the rounding of the positions.
     virtual double
-    rounding_force() const
-        = 0;
+    rounding_force() const = 0;
 
     /// A derivative of the energy by a weight [J] that is nothing but the rounding of the positions.
     virtual double
-    rounding_weight_gradient() const
-        = 0;
+    rounding_weight_gradient() const = 0;
 
     /// In bytes, its pattern included.
     virtual std::size_t
-    memory_consumption() const
-        = 0;
+    memory_consumption() const = 0;
   };
 } // namespace Exemplar
 

@@ -53,8 +53,8 @@ namespace Exemplar
     /// Needs attach() before all else.
     explicit ElasticPotential(const ElasticParts &parts);
 
-    NodePairs
-    couplings(bool in_parts) const override;
+    SymmetricPattern
+    make_pattern(const NodePairs &more, bool in_parts) const override;
 
     bool
     couples_by_products() const override
@@ -78,6 +78,12 @@ namespace Exemplar
     set_step_size(const double size) override
     {
       cells.get_batches().set_step_size(size);
+    }
+
+    const CellOrder &
+    history_order() const override
+    {
+      return parts.fe_space.cell_order();
     }
 
     bool

@@ -2,6 +2,7 @@
 #ifndef exemplar_incremental_potential_h
 #define exemplar_incremental_potential_h
 
+#include <exemplar/body/example_weights.h>
 #include <exemplar/potential/potential_tangent.h>
 
 #include <vector>
@@ -47,16 +48,18 @@ namespace Exemplar
   };
 
   /// What a step minimises over positions and weights: Phi(x, w), Eqs. (5), (12) and (22), the sum
-  /// over the cells and then the terms, in the order given.
+  /// over the body and then the terms, in the order given.
   class IncrementalPotential
   {
   public:
     /// `integrator` is null unless the scene is dynamic. The terms are nobody else's; all else must outlive the potential. If `in_parts`, the
     /// pattern is without the couplings of outer products.
-    IncrementalPotential(const ElasticParts &parts,
-                         PotentialTerms      terms,
-                         TimeIntegrator     *integrator,
-                         bool                in_parts = false);
+    IncrementalPotential(ElasticBody    &body,
+                         ExampleWeights &weights,
+                         const FreeDofs &free_dofs,
+                         PotentialTerms  terms,
+                         TimeIntegrator *integrator,
+                         bool            in_parts = false);
 
     /// One more term; one that couples nodes needs
     /// PotentialTangent::renew_pattern().
@@ -161,13 +164,6 @@ namespace Exemplar
       return free_dofs;
     }
 
-    /// The order of the cells in State::history.
-    const CellOrder &
-    cell_order() const
-    {
-      return fe_space.cell_order();
-    }
-
     /// The body, whatever it is made of.
     ElasticBody &
     get_body()
@@ -175,16 +171,10 @@ namespace Exemplar
       return body;
     }
 
-    ElasticPotential &
-    get_cells()
+    const ElasticBody &
+    get_body() const
     {
-      return cells;
-    }
-
-    const ElasticPotential &
-    get_cells() const
-    {
-      return cells;
+      return body;
     }
 
     const PotentialTerms &
@@ -217,12 +207,10 @@ namespace Exemplar
     renew_terms(const State &at);
 
     PotentialTerms   terms;
-    ElasticPotential cells;
-    ElasticBody     &body = cells;
+    ElasticBody     &body;
     PotentialTangent tangent; ///< of body and terms
     ExampleWeights  &weights;
     TimeIntegrator  *integrator;
-    const FESpace   &fe_space;
     const FreeDofs  &free_dofs;
     HeldBackForces   held_back;
     bool             in_dynamic_step = false;

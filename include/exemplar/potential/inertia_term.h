@@ -36,7 +36,7 @@ namespace Exemplar
     add(const TermPoint &at, ElasticSums &sums) override;
 
     void
-    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &cells) override;
+    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs) override;
 
     void
     follow_parameters() override;

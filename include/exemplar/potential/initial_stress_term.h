@@ -2,6 +2,7 @@
 #ifndef exemplar_initial_stress_term_h
 #define exemplar_initial_stress_term_h
 
+#include <exemplar/potential/cell_field.h>
 #include <exemplar/potential/cell_scatter.h>
 #include <exemplar/potential/potential_term.h>
 
@@ -18,9 +19,9 @@ namespace Exemplar
   class InitialStressTerm : public PotentialTerm
   {
   public:
-    /// Both must outlive the term.
-    InitialStressTerm(const FESpace &fe_space, const PointStresses &stresses)
-        : fe_space(fe_space), stresses(stresses)
+    /// The stresses at the points of these cells. All must outlive the term.
+    InitialStressTerm(CellField &cells, const FESpace &fe_space, const PointStresses &stresses)
+        : cells(cells), fe_space(fe_space), stresses(stresses)
     {
     }
 
@@ -31,7 +32,7 @@ namespace Exemplar
     }
 
     void
-    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &cells) override;
+    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs) override;
 
     void
     add(const TermPoint &at, ElasticSums &sums) override;
@@ -69,10 +70,10 @@ namespace Exemplar
     void
     add_blocks(unsigned int point, const Vector &positions, std::vector<double> &blocks) const;
 
+    CellField                 &cells;
     const FESpace             &fe_space;
     const PointStresses       &stresses;
-    CellField                 *cells = nullptr; ///< since attach()
-    std::optional<CellScatter> scatter;         ///< since attach()
+    std::optional<CellScatter> scatter; ///< since attach()
   };
 } // namespace Exemplar
 

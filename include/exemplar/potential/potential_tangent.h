@@ -2,22 +2,22 @@
 #ifndef exemplar_potential_tangent_h
 #define exemplar_potential_tangent_h
 
-#include <exemplar/potential/elastic_potential.h>
+#include <exemplar/potential/elastic_body.h>
 #include <exemplar/potential/potential_term.h>
 
 #include <vector>
 
 namespace Exemplar
 {
-  /// The matrix A and the columns G of an incremental potential, Eq. (10), and the pattern of A: sums over the cells and
-  /// the terms.
+  /// The matrix A and the columns G of an incremental potential, Eq. (10), and the pattern of A: those of
+  /// the body and of terms.
   class PotentialTangent
   {
   public:
-    /// The tangent of the cells of these parts, and of terms; all must outlive it. If `in_parts`, the pattern is without the
-    /// couplings of outer products.
-    PotentialTangent(const ElasticParts   &parts,
-                     ElasticPotential     &cells,
+    /// The tangent of a body and of terms; all must outlive it. If `in_parts`, the pattern is without the couplings of
+    /// outer products.
+    PotentialTangent(ElasticBody          &body,
+                     const FreeDofs       &free_dofs,
                      const PotentialTerms &terms,
                      bool                  in_parts);
 
@@ -28,7 +28,7 @@ namespace Exemplar
       return pattern;
     }
 
-    /// What terms couple in the pattern beside nodes of one cell or patch.
+    /// What terms couple in the pattern beside what the body does.
     const NodePairs &
     couplings_of_terms() const
     {
@@ -64,7 +64,7 @@ namespace Exemplar
              OuterProducts             *products = nullptr);
 
   private:
-    /// Make the pattern of cells, patches and terms as they are.
+    /// Make the pattern of body and terms as they are.
     void
     make_pattern_of_couplings(bool in_parts);
 
@@ -77,8 +77,8 @@ namespace Exemplar
                  std::vector<double>       &columns,
                  OuterProducts             *products);
 
-    const ElasticParts    parts;
-    ElasticPotential     &cells;
+    ElasticBody          &body;
+    const FreeDofs       &free_dofs;
     const PotentialTerms &terms;
     NodePairs             couplings; ///< of the terms
     SymmetricPattern      pattern;

@@ -6,7 +6,6 @@
 #include <exemplar/algebra/spd_operator.h>
 #include <exemplar/algebra/vector.h>
 #include <exemplar/body/state.h>
-#include <exemplar/potential/cell_field.h>
 #include <exemplar/potential/elastic_body.h>
 
 #include <boost/archive/binary_iarchive.hpp>
@@ -74,13 +73,10 @@ namespace Exemplar
       return {};
     }
 
-    /// Known from now on: the pattern on which add_tangent() writes, the free degrees of freedom, and
-    /// the cells, with their rotations and dilatations. All outlive the term. Called again when the
-    /// pattern or what is held has changed.
+    /// Known from now on: the pattern on which add_tangent() writes, and the free degrees of freedom. Both outlive the
+    /// term. Called again when the pattern or what is held has changed.
     virtual void
-    attach(const SymmetricPattern & /*pattern*/,
-           const FreeDofs & /*free_dofs*/,
-           CellField & /*cells*/)
+    attach(const SymmetricPattern & /*pattern*/, const FreeDofs & /*free_dofs*/)
     {
     }
 

@@ -48,7 +48,7 @@ namespace Exemplar
     }
 
     void
-    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &cells) override;
+    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs) override;
 
     void
     add(const TermPoint &at, ElasticSums &sums) override;

@@ -33,13 +33,13 @@ namespace Exemplar::Verification
           w(problem.examples.poses.size() > 0 ? weights : std::vector<double>()),
           rotations(rotations)
     {
-      problem.potential.get_cells().get_field().update_rotations(x);
+      problem.cells.get_field().update_rotations(x);
       at = evaluate(x, w);
-      problem.potential.get_cells().get_field().update_rotations(x);
+      problem.cells.get_field().update_rotations(x);
       matrix.resize(problem.potential.get_tangent().get_pattern().n_values());
-      problem.potential.get_cells().assemble_tangent(
-          rotations == Rotations::followed ? Tangent::exact : Tangent::convex, x, w, matrix,
-          columns);
+      problem.cells.assemble_tangent(rotations == Rotations::followed ? Tangent::exact
+                                                                      : Tangent::convex,
+                                     x, w, matrix, columns);
     }
 
     /// Greatest error of the gradient, relative to 1 + its greatest entry.
@@ -159,9 +159,9 @@ namespace Exemplar::Verification
     evaluate(const dealii::Vector<double> &positions, const std::vector<double> &at_weights) const
     {
       if (rotations == Rotations::followed)
-        problem.potential.get_cells().get_field().update_rotations(positions);
+        problem.cells.get_field().update_rotations(positions);
       ElasticEvaluation evaluation;
-      problem.potential.get_cells().evaluate(positions, at_weights, evaluation);
+      problem.cells.evaluate(positions, at_weights, evaluation);
       return evaluation;
     }
 

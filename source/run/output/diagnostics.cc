@@ -145,7 +145,7 @@ namespace Exemplar
   void
   Diagnostics::append_dissipated(StatisticsRow &row, const State &shown) const
   {
-    const CellField &cells      = problem.potential.get_cells().get_field();
+    const CellField &cells      = problem.cells.get_field();
     const bool       some_yield = cells.get_batches().has_trait(&ModelTraits::dissipated);
     if (problem.potential.get_weights().get_memory().in_use() || some_yield
         || problem.potential.has_dissipating_terms(shown))

@@ -45,7 +45,7 @@ namespace Exemplar
     frame.displacement = state.positions;
     frame.displacement -= problem.body.fe_space.rest_positions();
     frame.velocities = state.velocities;
-    frame.cells      = problem.potential.get_cells().cell_results(state.positions, state.weights);
+    frame.cells      = problem.cells.cell_results(state.positions, state.weights);
     for (const auto &term : problem.potential.get_terms())
       term->append_fields(state.positions, frame.fields);
     for (NodalField &field : frame.fields)

@@ -72,16 +72,17 @@ namespace Exemplar
                   const FreeDofs        &free_dofs)
           : body(body), exchange(body.exchange()), free_dofs(free_dofs),
             weights(examples.weights.size(), 0.),
-            potential({ laws_of_cells(parameters, body), body.fe_space, body.material,
-                        body.cell_material, body.patches, examples.poses, examples.weights,
-                        free_dofs, parameters.solver.n_threads },
+            cells(elastic_parts(parameters, body, examples.poses, examples.weights, free_dofs)),
+            potential(cells,
+                      examples.weights,
+                      free_dofs,
                       {},
                       nullptr,
                       is_assembled_in_parts(parameters.solver, exchange)),
             system(make_bordered_system(parameters.solver, potential))
       {
         ElasticEvaluation evaluation; // finds the rotations
-        potential.get_cells().evaluate(rest(), weights, evaluation, RotationUse::update);
+        cells.evaluate(rest(), weights, evaluation, RotationUse::update);
         assemble();
         if (!is_iterative())
           stiffness = system->matrix_values();
@@ -116,9 +117,8 @@ namespace Exemplar
       {
         if (is_iterative())
           return 1.;
-        InitialStressTerm term(body.fe_space, stresses);
-        term.attach(potential.get_tangent().get_pattern(), free_dofs,
-                    potential.get_cells().get_field());
+        InitialStressTerm term(cells.get_field(), body.fe_space, stresses);
+        term.attach(potential.get_tangent().get_pattern(), free_dofs);
         std::vector<double> of_stresses(stiffness.size(), 0.), none;
         term.add_tangent({ rest(), weights }, Tangent::exact, of_stresses, none);
         double high = 1.;
@@ -183,9 +183,8 @@ namespace Exemplar
         for (unsigned int point = 0; point < stresses.size(); ++point)
         {
           const Matrix3<double> M = fe_space.deformation_gradient(point, displacement);
-          stresses[point]
-              = combine(1., stresses[point], 1.,
-                        stress_at_rest(potential.get_cells().get_field().get_batches(), point, M));
+          stresses[point]         = combine(1., stresses[point], 1.,
+                                            stress_at_rest(cells.get_field().get_batches(), point, M));
           if (patches.size() > 0)
             means[patches.of_point(point)] += fe_space.volume(point) * trace(M);
         }
@@ -256,6 +255,7 @@ namespace Exemplar
       const Exchange                       &exchange;
       const FreeDofs                       &free_dofs;
       const std::vector<double>             weights; ///< zero
+      ElasticPotential                      cells;
       IncrementalPotential                  potential;
       const std::unique_ptr<BorderedSystem> system;
       std::vector<double> stiffness; ///< K; empty if the system does not factorise

@@ -47,7 +47,7 @@ namespace Exemplar
     IncrementalPotential       &potential = problem.potential;
     const Examples             &examples  = problem.examples;
     std::optional<ExampleStart> best;
-    const CellBatches          &batches = potential.get_cells().get_field().get_batches();
+    const CellBatches          &batches = problem.cells.get_field().get_batches();
     if (problem.parameters.scene != SceneKind::statics || examples.weights.n_unknown() == 0
         || batches.remembers() || potential.get_weights().get_memory().in_use()
         || !examples.starts.empty())

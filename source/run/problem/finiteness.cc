@@ -74,8 +74,8 @@ namespace Exemplar
     const Evaluation     &evaluation = problem.evaluation;
     IncrementalPotential &potential  = problem.potential;
     const Exchange       &exchange   = problem.body.exchange();
-    const CellResults cells = potential.get_cells().cell_results(state.positions, state.weights);
-    std::string       what  = exchange.first_text(what_is_not_finite(state, evaluation));
+    const CellResults     cells      = problem.cells.cell_results(state.positions, state.weights);
+    std::string           what       = exchange.first_text(what_is_not_finite(state, evaluation));
     if (what.empty())
       what = exchange.first_text(what_is_not_finite(cells));
     if (what.empty() && problem.actions.mass != nullptr
@@ -109,8 +109,8 @@ namespace Exemplar
     const auto maximum
         = [&](const Vector &x) { return exchange.max(max_entry(x.begin(), x.end())); };
     if (what.empty() && !(maximum(next.positions) < 1e60 * maximum(body.fe_space.rest_positions())))
-      what = exchange.first_text(what_is_not_finite(
-          problem.potential.get_cells().cell_results(next.positions, next.weights)));
+      what = exchange.first_text(
+          what_is_not_finite(problem.cells.cell_results(next.positions, next.weights)));
     if (what.empty())
       return;
     report.status  = SolveStatus::failed;

@@ -47,8 +47,8 @@ namespace Exemplar
     const bool            has_gravity   = actions.loads != nullptr && actions.loads->has_gravity();
     const std::size_t     loads         = memory_of_term(problem, "loads");
     const std::size_t     quasi_newton  = memory_of_quasi_newton(problem);
-    const std::size_t     cells         = problem.body.fe_space.memory_consumption()
-                              + problem.potential.get_cells().memory_consumption();
+    const std::size_t     cells
+        = problem.body.fe_space.memory_consumption() + problem.cells.memory_consumption();
     std::vector<PartOfProblem> parts = {
       { "mesh", {}, problem.body.mesh.memory_consumption() },
       { "cells", {}, cells },
@@ -65,8 +65,7 @@ namespace Exemplar
       { "initial stresses", !actions.initial_stresses.empty(),
         memory_of_term(problem, "initial stress") },
       { "plastic cells",
-        problem.potential.get_cells().get_field().get_batches().has_trait(
-            &ModelTraits::plastic_strain),
+        problem.cells.get_field().get_batches().has_trait(&ModelTraits::plastic_strain),
         {} },
       { "mean dilatation by patches", problem.body.patches.size() > 0, {} },
       { "example poses", poses.size() > 0, poses.size() > 0 ? poses.memory_consumption() : 0 },

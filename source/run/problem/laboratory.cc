@@ -28,10 +28,11 @@ namespace Exemplar
     /// The terms of the scene, and then user-defined ones, which are also appended to `own`.
     PotentialTerms
     make_all_terms(const Problem                &problem,
+                   CellField                    &cells,
                    const TimeIntegrator         *integrator,
                    std::vector<PotentialTerm *> &own)
     {
-      PotentialTerms terms = problem.actions.make_terms(problem.body, integrator);
+      PotentialTerms terms = problem.actions.make_terms(problem.body, cells, integrator);
       for (const OwnTerm &term : problem.actions.own_terms)
       {
         terms.push_back(term.make());
@@ -104,11 +105,12 @@ namespace Exemplar
                 problem.time_axis),
         integrator(copy_of(problem.actions.integrator)),
         free_dofs(problem.body.fe_space.n_dofs(), {}, problem.body.exchange()),
-        potential({ laws_of_cells(problem.parameters, problem.body), problem.body.fe_space,
-                    problem.body.material, problem.body.cell_material, problem.body.patches,
-                    problem.examples.poses, weights, free_dofs,
-                    problem.parameters.solver.n_threads },
-                  make_all_terms(problem, integrator.get(), own_terms),
+        cells(elastic_parts(
+            problem.parameters, problem.body, problem.examples.poses, weights, free_dofs)),
+        potential(cells,
+                  weights,
+                  free_dofs,
+                  make_all_terms(problem, cells.get_field(), integrator.get(), own_terms),
                   integrator.get())
   {
   }
@@ -253,20 +255,19 @@ namespace Exemplar
   Laboratory::cell_means(const Place &at)
   {
     evaluate(at);
-    ElasticPotential &elastic  = potential.get_cells();
-    const FESpace    &fe_space = problem.body.fe_space;
-    CellMeans         means;
-    means.det_F = elastic.cell_results(at.positions, at.weights).det_F; // updates cells, too
+    const FESpace &fe_space = problem.body.fe_space;
+    CellMeans      means;
+    means.det_F = cells.cell_results(at.positions, at.weights).det_F; // updates cells, too
     means.strains.resize(fe_space.n_cells());
     means.stresses.resize(fe_space.n_cells());
-    const CellField &cells = elastic.get_field();
+    const CellField &field = cells.get_field();
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
       const unsigned int cell = fe_space.cell_of(point);
       const double       part = fe_space.volume(point) / fe_space.cell_volume(cell);
-      const CellLaw      law  = cells.get_batches().law(point);
+      const CellLaw      law  = field.get_batches().law(point);
       LawInput<double>   in
-          = cells.law_input(point, fe_space.deformation_gradient(point, at.positions));
+          = field.law_input(point, fe_space.deformation_gradient(point, at.positions));
       in.target         = problem.examples.poses.strain(point, at.weights);
       Matrix3<double> T = law_functions<double>(law).stress(in);
       for (int i = 0; i < 3; ++i)

@@ -27,8 +27,8 @@ namespace Exemplar
     n_values_in_parts(const IncrementalPotential &potential)
     {
       const SymmetricPattern &pattern = potential.get_tangent().get_pattern();
-      return potential.get_cells().couples_by_products() ? 21. * pattern.n()
-                                                         : static_cast<double>(pattern.n_values());
+      return potential.get_body().couples_by_products() ? 21. * pattern.n()
+                                                        : static_cast<double>(pattern.n_values());
     }
 
     /// Relative residuals of linear solves. Newton's method and the fixed point correct errors in

@@ -49,10 +49,12 @@ namespace Exemplar
       : parameters(scene), clock(std::move(running_clock)), time_axis(make_time_axis(parameters)),
         body(parameters, given), constraints(parameters, body, time_axis, given),
         examples(parameters, body, time_axis, given), actions(parameters, body, given),
-        potential({ laws_of_cells(parameters, body), body.fe_space, body.material,
-                    body.cell_material, body.patches, examples.poses, examples.weights,
-                    constraints.free_dofs, parameters.solver.n_threads },
-                  actions.make_terms(body, actions.integrator.get()),
+        cells(elastic_parts(
+            parameters, body, examples.poses, examples.weights, constraints.free_dofs)),
+        potential(cells,
+                  examples.weights,
+                  constraints.free_dofs,
+                  actions.make_terms(body, cells.get_field(), actions.integrator.get()),
                   actions.integrator.get(),
                   is_assembled_in_parts(parameters.solver, body.exchange())),
         system(
@@ -73,12 +75,12 @@ namespace Exemplar
     {
       actions.initial_stresses = initial_stresses(parameters, body, examples, constraints,
                                                   actions.loads.get(), actions.warnings);
-      potential.add_term(
-          std::make_unique<InitialStressTerm>(body.fe_space, actions.initial_stresses));
+      potential.add_term(std::make_unique<InitialStressTerm>(cells.get_field(), body.fe_space,
+                                                             actions.initial_stresses));
     }
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation(parameters.initial, examples.poses, state);
-    state.history = potential.get_cells().get_field().get_batches().history();
+    state.history = cells.get_field().get_batches().history();
     start(state);
     check_start(*this);
     if (!parameters.session.empty())

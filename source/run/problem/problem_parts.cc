@@ -152,8 +152,28 @@ namespace Exemplar
     return laws;
   }
 
+  ElasticParts
+  elastic_parts(const SceneParameters &parameters,
+                const Body            &body,
+                const ExamplePoses    &poses,
+                ExampleWeights        &weights,
+                const FreeDofs        &free_dofs)
+  {
+    return { laws_of_cells(parameters, body),
+             body.fe_space,
+             body.material,
+             body.cell_material,
+             body.patches,
+             poses,
+             weights,
+             free_dofs,
+             parameters.solver.n_threads };
+  }
+
   PotentialTerms
-  Actions::make_terms(const Body &body, const TimeIntegrator *integrator_of_terms) const
+  Actions::make_terms(const Body           &body,
+                      CellField            &cells,
+                      const TimeIntegrator *integrator_of_terms) const
   {
     PotentialTerms terms;
     if (mass != nullptr)
@@ -162,7 +182,7 @@ namespace Exemplar
     if (loads != nullptr)
       terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space));
     if (!initial_stresses.empty())
-      terms.push_back(std::make_unique<InitialStressTerm>(body.fe_space, initial_stresses));
+      terms.push_back(std::make_unique<InitialStressTerm>(cells, body.fe_space, initial_stresses));
     return terms;
   }
 } // namespace Exemplar

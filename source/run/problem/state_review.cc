@@ -247,7 +247,7 @@ namespace Exemplar
         all.push_back(*warning);
     // strains of 1e-4 are no rounding, unless cells or weights have memory
     const double energy    = problem.evaluation.elastic.energy;
-    const bool   remembers = problem.potential.get_cells().get_field().get_batches().remembers()
+    const bool   remembers = problem.cells.get_field().get_batches().remembers()
                            || problem.potential.get_weights().get_memory().in_use();
     if (!remembers && is_unloaded(problem)
         && energy > 1e-8 * unit_energy(problem.body.fe_space, problem.body.material))

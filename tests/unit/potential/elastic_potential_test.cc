@@ -146,7 +146,7 @@ namespace Exemplar::Testing
       state.velocities = positions;
       integrator.begin_step(state, 0.1);
       inertia.begin_step(state, 0.1);
-      inertia.attach(elastic.matrix_pattern, free_dofs, elastic.get_field());
+      inertia.attach(elastic.matrix_pattern, free_dofs);
       std::vector<double> matrix(elastic.matrix_pattern.n_values()), columns;
       inertia.add_tangent({ positions, weights }, Tangent::exact, matrix, columns);
       elastic.assemble_tangent(Tangent::convex, positions, weights, matrix, columns);

@@ -63,7 +63,7 @@ namespace Exemplar::Testing
       }
 
       void
-      attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs, CellField &) override
+      attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs) override
       {
         diagonal.clear();
         beside.clear();
@@ -115,10 +115,10 @@ namespace Exemplar::Testing
           : body(box_mesh(4., 6, 1)),
             free_dofs(body.fe_space.n_dofs(), { 0, 1, 2, 5, 9 }, exchange),
             examples(body.examples(ExampleParameters())),
-            potential({ CellLaw::corotational, body.fe_space, body.material, body.material,
-                        no_patches(), *examples.poses, *examples.weights, free_dofs },
-                      springs(body.fe_space.n_nodes() - 1),
-                      nullptr)
+            cells({ CellLaw::corotational, body.fe_space, body.material, body.material,
+                    no_patches(), *examples.poses, *examples.weights, free_dofs }),
+            potential(
+                cells, *examples.weights, free_dofs, springs(body.fe_space.n_nodes() - 1), nullptr)
       {
         std::mt19937 generator(1);
         state.positions = body.random_positions(generator, 0.05);
@@ -144,6 +144,7 @@ namespace Exemplar::Testing
       const Body           body;
       FreeDofs             free_dofs;
       const Examples       examples;
+      ElasticPotential     cells;
       IncrementalPotential potential;
       State                state;
     };

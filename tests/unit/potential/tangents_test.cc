@@ -96,7 +96,7 @@ namespace Exemplar::Testing
       const FreeDofs            free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
       BodyPotential             whole(body, ModelParameters(), examples, free_dofs),
           parts(body, ModelParameters(), examples, free_dofs);
-      parts.assemble_in_parts(body, free_dofs);
+      parts.assemble_in_parts();
       std::mt19937 generator(7);
       const Vector u = body.random_positions(generator, 1.);
       // also where the guards of patches act, of stretched ones and of those with thin cells

@@ -130,7 +130,7 @@ namespace Exemplar::Testing
         state.positions = state.velocities = positions;
         integrator.begin_step(state, 0.1);
         inertia.begin_step(state, 0.1);
-        inertia.attach(elastic.matrix_pattern, free_dofs, elastic.get_field());
+        inertia.attach(elastic.matrix_pattern, free_dofs);
         auto matrix = make_cholesky_operator();
         matrix->reinit(elastic.matrix_pattern);
         system = make_block_system(std::move(matrix), no_weights, Exchange::serial());

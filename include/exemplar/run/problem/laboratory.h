@@ -2,6 +2,7 @@
 #ifndef exemplar_laboratory_h
 #define exemplar_laboratory_h
 
+#include <exemplar/potential/elastic_potential.h>
 #include <exemplar/potential/incremental_potential.h>
 #include <exemplar/run/problem/row_matrix.h>
 
@@ -105,6 +106,7 @@ namespace Exemplar
     const std::unique_ptr<TimeIntegrator> integrator; ///< in dynamic scenes
     FreeDofs                              free_dofs;  ///< all are free
     std::vector<PotentialTerm *>          own_terms;
+    ElasticPotential                      cells;
     IncrementalPotential                  potential;
     Evaluation                            evaluation;
     std::vector<double>                   values, columns; ///< of the last assembled tangent

@@ -158,7 +158,8 @@ namespace Exemplar
     Constraints                       constraints;
     Examples                          examples;
     Actions                           actions;
-    IncrementalPotential              potential;
+    ElasticPotential                  cells;
+    IncrementalPotential              potential; ///< of cells and terms
     StepSystem                        system;
     const std::unique_ptr<StepSolver> solver;
     State                             state;

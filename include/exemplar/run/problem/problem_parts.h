@@ -8,6 +8,7 @@
 #include <exemplar/body/mass.h>
 #include <exemplar/body/supports.h>
 #include <exemplar/body/time_integrator.h>
+#include <exemplar/potential/elastic_potential.h>
 #include <exemplar/potential/incremental_potential.h>
 #include <exemplar/potential/initial_stress_term.h>
 #include <exemplar/run/inputs/body_inputs.h>
@@ -123,6 +124,15 @@ namespace Exemplar
   LawsOfCells
   laws_of_cells(const SceneParameters &parameters, const Body &body);
 
+  /// The cells of a scene's body, with these weights of its examples and these degrees of freedom. All must outlive what
+  /// is made of it. All processes must call this.
+  ElasticParts
+  elastic_parts(const SceneParameters &parameters,
+                const Body            &body,
+                const ExamplePoses    &poses,
+                ExampleWeights        &weights,
+                const FreeDofs        &free_dofs);
+
   /// Makes a user-defined term. Called for each potential: that of the steps, and that of a
   /// Laboratory, which copies the state of the term by PotentialTerm::save() and load().
   using MakeTerm = std::function<std::unique_ptr<PotentialTerm>()>;
@@ -142,7 +152,7 @@ namespace Exemplar
     /// The terms of the potential for these, with this time integrator, which is null unless the
     /// scene is dynamic.
     PotentialTerms
-    make_terms(const Body &body, const TimeIntegrator *integrator_of_terms) const;
+    make_terms(const Body &body, CellField &cells, const TimeIntegrator *integrator_of_terms) const;
 
     std::unique_ptr<Loads>                loads;
     const std::unique_ptr<Mass>           mass;             ///< in dynamic scenes
