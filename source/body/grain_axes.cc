@@ -26,12 +26,57 @@ namespace Exemplar
       return sum;
     }
 
-    std::vector<Direction>
-    between(const FibreEnds   &ends,
-            const Mesh        &mesh,
-            const std::string &key,
-            const NamedNodes  &named)
+    constexpr double rounding = 1e-9; ///< relative one of a gradient
+
+    /// Make directions unit vectors. Where the harmonic function is constant, as in a limb that hangs on one of the
+    /// selections alone, they become those of the neighbours, from cell to cell. Returns the number of these cells.
+    unsigned int
+    continue_into_dead_ends(const Mesh &mesh, std::vector<Direction> &directions)
     {
+      double maximum = 0.;
+      for (const Direction &direction : directions)
+        maximum = std::max(maximum, direction.norm());
+      std::vector<unsigned int> without;
+      for (unsigned int cell = 0; cell < directions.size(); ++cell)
+        if (directions[cell].norm() > rounding * maximum)
+          directions[cell] /= directions[cell].norm();
+        else
+          without.push_back(cell);
+      const auto n_without = static_cast<unsigned int>(without.size());
+      for (const unsigned int cell : without)
+        directions[cell] = Direction();
+      for (bool goes_on = maximum > 0.; goes_on && !without.empty();)
+      {
+        std::vector<Direction> at_nodes(mesh.n_nodes());
+        for (unsigned int cell = 0; cell < directions.size(); ++cell)
+          for (const unsigned int node : mesh.get_cells()[cell])
+            at_nodes[node] += directions[cell];
+        const auto is_reached = [&](const unsigned int cell)
+        {
+          Direction sum;
+          for (const unsigned int node : mesh.get_cells()[cell])
+            sum += at_nodes[node];
+          if (sum.norm() > rounding)
+            directions[cell] = sum / sum.norm();
+          return sum.norm() > rounding;
+        };
+        const auto rest = std::remove_if(without.begin(), without.end(), is_reached);
+        goes_on         = rest != without.end();
+        without.erase(rest, without.end());
+      }
+      return n_without;
+    }
+
+    /// Directions of the harmonic function between two selections; a warning goes to `warnings` if it leaves many cells
+    /// without.
+    std::vector<Direction>
+    between(const FibreEnds          &ends,
+            const Mesh               &mesh,
+            const std::string        &key,
+            const NamedNodes         &named,
+            std::vector<std::string> &warnings)
+    {
+      constexpr double many = 0.02; // of the cells
       const auto from = ends.from.nodes(mesh, key, named), to = ends.to.nodes(mesh, key, named);
       std::vector<unsigned int> both;
       std::set_intersection(from.begin(), from.end(), to.begin(), to.end(),
@@ -41,7 +86,15 @@ namespace Exemplar
             fmt::format("{}: '{}' and '{}' share {} nodes, so fibres cannot go from the one to "
                         "the other. Select nodes apart from each other.",
                         key, ends.from.text, ends.to.text, both.size()));
-      return harmonic_gradients(mesh, from, to);
+      std::vector<Direction> directions = harmonic_gradients(mesh, from, to);
+      const unsigned int     n          = continue_into_dead_ends(mesh, directions);
+      if (n > many * mesh.n_cells())
+        warnings.push_back(fmt::format(
+            "{}: in {} of {} cells no way leads from '{}' to '{}': they are in one of the "
+            "selections, or hang on one of them alone. Their fibres go on as those of their "
+            "neighbours. Select smaller ends, such as faces of the body, if that is not meant.",
+            key, n, mesh.n_cells(), ends.from.text, ends.to.text));
+      return directions;
     }
 
     std::vector<Direction>
@@ -59,10 +112,12 @@ namespace Exemplar
     class Directions
     {
     public:
+      /// Warnings are appended.
       Directions(const Mesh                             &mesh,
                  const NamedNodes                       &named,
-                 const std::vector<std::vector<double>> &painted)
-          : mesh(mesh), named(named)
+                 const std::vector<std::vector<double>> &painted,
+                 std::vector<std::string>               &warnings)
+          : mesh(mesh), named(named), warnings(warnings)
       {
         for (unsigned int cell = 0; !painted.empty() && cell < mesh.n_cells(); ++cell)
         {
@@ -93,13 +148,14 @@ namespace Exemplar
         if (found.empty())
         {
           const auto ends = split_fibre_ends(text, key);
-          found           = ends ? between(*ends, mesh, key, named) : by_formulas(text, mesh, key);
+          found = ends ? between(*ends, mesh, key, named, warnings) : by_formulas(text, mesh, key);
         }
         return found;
       }
 
       const Mesh                                   &mesh;
       const NamedNodes                             &named;
+      std::vector<std::string>                     &warnings;
       std::vector<Direction>                        of_maps;
       std::map<std::string, std::vector<Direction>> of_texts;
     };
@@ -111,11 +167,10 @@ namespace Exemplar
       if (text.empty())
         return "Paint another direction there.";
       if (split_fibre_ends(text, "").has_value())
-        return "The function between the two selections is constant there: all nodes of these "
-               "cells are in "
-               "one selection, or the cells hang on one of them only. Select faces of the body, "
-               "such as "
-               "boundary 1, or thinner boxes, which hold no whole cell.";
+        return "No way leads from the one selection to the other, and none from a cell that has a "
+               "direction: all nodes are in one of them, or in a part of the body that hangs on "
+               "one "
+               "alone. Select faces of the body, such as boundary 1, or thinner boxes.";
       return "Give formulas that are not all 0 there.";
     }
 
@@ -161,7 +216,6 @@ namespace Exemplar
     {
       if (!constants.has_grain() || cells.empty())
         return;
-      constexpr double          rounding  = 1e-9; // relative rounding of a gradient
       const auto               &along     = directions.along(constants, section);
       const bool                has_cross = !constants.cross_direction.empty();
       double                    maximum   = 0.;
@@ -233,14 +287,15 @@ namespace Exemplar
   find_grain_axes(const MaterialParameters               &parameters,
                   const Mesh                             &mesh,
                   const NamedNodes                       &named,
-                  const std::vector<std::vector<double>> &painted)
+                  const std::vector<std::vector<double>> &painted,
+                  std::vector<std::string>               &warnings)
   {
     if (!parameters.law_of_grain())
       return {};
     std::map<unsigned int, std::vector<unsigned int>> cells; // cells of each material id
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
       cells[mesh.get_material_ids()[cell]].push_back(cell);
-    Directions             directions(mesh, named, painted);
+    Directions             directions(mesh, named, painted, warnings);
     std::vector<GrainAxes> axes(mesh.n_cells());
     for (const auto &[id, constants] : regions_by_id(parameters, mesh.get_contents()))
       if (const auto of_region = cells.find(id); of_region != cells.end())

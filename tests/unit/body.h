@@ -27,6 +27,16 @@ namespace Exemplar::Testing
     return parameters;
   }
 
+  /// find_grain_axes() without paint, whose warnings nobody reads.
+  inline std::vector<GrainAxes>
+  grain_axes_of(const MaterialParameters &parameters,
+                const Mesh               &mesh,
+                const NamedNodes         &named = {})
+  {
+    std::vector<std::string> warnings;
+    return find_grain_axes(parameters, mesh, named, {}, warnings);
+  }
+
   /// The bar 4 x 1 x 1 twisted by an angle over its length, as a pose function.
   inline std::string
   twist(const double degrees)
@@ -107,11 +117,9 @@ namespace Exemplar::Testing
                   const Element             element    = Element::P1,
                   const MaterialParameters &parameters = MaterialParameters(),
                   const NamedNodes         &named      = {})
-        : mesh(contents, "test"), material(parameters,
-                                           mesh.get_material_ids(),
-                                           {},
-                                           {},
-                                           find_grain_axes(parameters, mesh, named, {})),
+        : mesh(contents, "test"),
+          material(
+              parameters, mesh.get_material_ids(), {}, {}, grain_axes_of(parameters, mesh, named)),
           fe_space(mesh, element), cell_material(material)
     {
     }

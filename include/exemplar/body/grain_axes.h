@@ -31,12 +31,14 @@ namespace Exemplar
 
   /// The material axes of each cell at rest; empty if no material has a grain. `mesh` is a whole
   /// one; `named` are the nodes of files and of the surface. `painted` directions, three numbers a
-  /// cell, replace those of the parameters. Throws UserError for a direction that is 0.
+  /// cell, replace those of the parameters. Cells that no way between two selections passes have the directions of their
+  /// neighbours, and `warnings` are appended if these are many. Throws UserError for a direction that is 0.
   std::vector<GrainAxes>
   find_grain_axes(const MaterialParameters               &parameters,
                   const Mesh                             &mesh,
                   const NamedNodes                       &named,
-                  const std::vector<std::vector<double>> &painted);
+                  const std::vector<std::vector<double>> &painted,
+                  std::vector<std::string>               &warnings);
 
   /// The gradient in each cell of the harmonic function that is 0 at the nodes `from` and 1 at the
   /// nodes `to`, by linear elements; exactly 0 in parts of the body connected to neither.

@@ -22,20 +22,21 @@ namespace Exemplar
       return nodes;
     }
 
-    /// Fields of the whole body, with the readings off the surface. Moves the poses out of the
-    /// inputs.
+    /// Fields of the whole body, with the readings off the surface, to whose warnings more are added. Moves the poses out
+    /// of the inputs.
     BodyFields
     make_fields(const SceneParameters &scene,
                 const Mesh            &mesh,
                 Inputs                &inputs,
-                const SurfaceReadings &readings)
+                SurfaceReadings       &readings)
     {
       NamedNodes named = inputs.nodes;
       named.insert(readings.nodes.begin(), readings.nodes.end());
       BodyFields fields;
       fields.material = Material(
           scene.material, mesh.get_material_ids(), mesh.get_contents(), readings.material,
-          find_grain_axes(scene.material, mesh, named, readings.material.fibre_direction));
+          find_grain_axes(scene.material, mesh, named, readings.material.fibre_direction,
+                          readings.warnings));
       if (scene.model.has_patches())
         fields.patches = Patches::choose(mesh, fields.material, scene.model.element);
       fields.shares = readings.shares;
@@ -50,11 +51,11 @@ namespace Exemplar
   BodyInputs
   make_body_inputs(const CompleteScene &scene, Inputs inputs)
   {
-    const bool            needs_inputs = scene.output.space_error != SpaceErrorUse::never;
-    auto                  kept = needs_inputs ? std::make_shared<const Inputs>(inputs) : nullptr;
-    Mesh                  mesh(std::move(inputs.mesh), scene.mesh.name(), scene.mesh.scale);
-    const SurfaceReadings readings = read_off_surface(scene, mesh, inputs);
-    BodyFields            fields   = make_fields(scene, mesh, inputs, readings);
+    const bool      needs_inputs = scene.output.space_error != SpaceErrorUse::never;
+    auto            kept         = needs_inputs ? std::make_shared<const Inputs>(inputs) : nullptr;
+    Mesh            mesh(std::move(inputs.mesh), scene.mesh.name(), scene.mesh.scale);
+    SurfaceReadings readings = read_off_surface(scene, mesh, inputs);
+    BodyFields      fields   = make_fields(scene, mesh, inputs, readings);
     return { std::move(mesh),
              std::move(fields),
              { readings.motions, readings.warnings, inputs.surface, std::move(inputs.carried),

@@ -163,9 +163,10 @@ namespace Exemplar
                           const double                     distance,
                           const std::string               &choice) const
   {
-    const auto select = [&](const double limit)
+    using Vertices    = std::vector<unsigned int>;
+    const auto select = [&](const Vertices &from, const double limit)
     {
-      const SurfacePaths paths(boundary.get_surface(), vertices, limit);
+      const SurfacePaths paths(boundary.get_surface(), from, limit);
       Nodes              nodes;
       double             minimum = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < boundary.get_nodes().size(); ++k)
@@ -177,21 +178,21 @@ namespace Exemplar
       }
       return std::make_pair(nodes, minimum);
     };
-    const Nodes nodes = select(distance).first;
-    if (nodes.empty())
-    {
-      const double minimum = select(std::numeric_limits<double>::infinity()).second;
-      if (std::isinf(minimum))
-        throw UserError(choice + " selects no node: no face of the surface uses "
-                        + (vertices.size() > 1 ? "these vertices" : "this vertex")
-                        + ". Pick one that lies on a face.");
-      throw UserError(
-          choice + " selects no node: the nearest node of the boundary of " + mesh.get_name()
-          + " is " + short_text(minimum)
-          + " m away, along the surface. Enlarge the distance, or leave 'within' out to "
-            "take the nearest node.");
-    }
-    return nodes;
+    for (const unsigned int vertex : vertices)
+      if (select({ vertex }, distance).first.empty())
+      {
+        const double minimum = select({ vertex }, std::numeric_limits<double>::infinity()).second;
+        const std::string none
+            = fmt::format("{} selects no node at vertex {}: ", choice, vertex + 1);
+        if (std::isinf(minimum))
+          throw UserError(none + "no face of the surface uses this vertex. Pick one that lies on a face.");
+        throw UserError(
+            none + "the nearest node of the boundary of " + mesh.get_name() + " is "
+            + short_text(minimum)
+            + " m away, along the surface. Enlarge the distance, or leave 'within' out to "
+              "take the nearest node.");
+      }
+    return select(vertices, distance).first;
   }
 
   SurfaceSelector::Nodes
