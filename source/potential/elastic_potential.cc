@@ -146,8 +146,8 @@ namespace Exemplar
   ElasticPotential::rounding_weight_gradient() const
   {
     double maximum = 0.;
-    for (unsigned int weight = 0; weight < parts.examples.n_weights(); ++weight)
-      maximum = max_or_nan(maximum, rounding.stress_norm * parts.examples.strain_norm(weight));
+    for (const double norm : parts.examples.norms())
+      maximum = max_or_nan(maximum, rounding.stress_norm * norm);
     return maximum;
   }
 
@@ -157,7 +157,7 @@ namespace Exemplar
                          const RotationUse          rotations)
   {
     CellTask task         = cells.task(positions, rotations);
-    task.examples         = parts.examples.arrays();
+    task.examples         = parts.examples.get_strains().arrays();
     task.weights          = weights.data();
     task.with_weight_sums = parts.weights.n_unknown() > 0;
     return task;
@@ -191,9 +191,9 @@ namespace Exemplar
         penalty += form(v, w) * weights[w];
       result.energy += 0.5 * penalty * weights[v];
       result.weight_gradient[v] += penalty + memory.force(v, weights[v]);
-      result.weight_scale = max_or_nan(result.weight_scale,
-                                       stress_norm * examples.strain_norm(v) + std::abs(penalty)
-                                           + memory.force_scale(v, weights[v]));
+      result.weight_scale
+          = max_or_nan(result.weight_scale, stress_norm * examples.norms()[v] + std::abs(penalty)
+                                                + memory.force_scale(v, weights[v]));
     }
     result.energy_memory = memory.energy(weights);
   }

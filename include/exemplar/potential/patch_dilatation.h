@@ -14,17 +14,16 @@
 
 namespace Exemplar
 {
-  /// Stiffness damping of the mean dilatations of patches, Eq. (22); empty without damping.
+  /// Stiffness damping of the mean dilatations of patches, Eq. (22).
   struct PatchDamping
   {
+    explicit PatchDamping(const std::size_t n_patches)
+        : past_means(n_patches, 0.), factors(n_patches, 0.)
+    {
+    }
+
     std::vector<double> past_means; ///< sum_m c_m theta_p(x_m)
     std::vector<double> factors;    ///< s, or 0 of patches that are left out
-
-    double
-    factor(const unsigned int patch) const
-    {
-      return factors.empty() ? 0. : factors[patch];
-    }
   };
 
   /// The volume part of Psi by patches, Eq. (25): sum lambda_p/2 V_p (theta_p - eta
@@ -63,7 +62,7 @@ namespace Exemplar
     void
     leave_step()
     {
-      damping = {};
+      damping = PatchDamping(patches.size());
     }
 
     /// Find the means of the dilatations that the cells have found at these positions, CellField::get_dilatation().
@@ -152,10 +151,6 @@ namespace Exemplar
     /// lambda_p V_p (1 + s), the factor of b b^T in A.
     double
     tangent_factor(unsigned int patch, Tangent kind) const;
-
-    /// eta theta_p(E(w)); 0 without examples.
-    double
-    target(unsigned int patch, const std::vector<double> &weights) const;
 
     const Patches              &patches;
     const ExamplePoses         &examples;

@@ -25,7 +25,7 @@ namespace Exemplar
       ExampleParameters     examples = parameters.examples;
       examples.in_single_precision   = parameters.solver.method == Method::quasi_newton
                                      && parameters.solver.step_tolerance >= rounding
-                                     && examples.in_use() && examples.n_examples() >= many;
+                                     && examples.n_examples() >= many;
       return examples;
     }
 
@@ -60,7 +60,7 @@ namespace Exemplar
     Material
     make_material(const ExampleParameters &examples, Material of_body)
     {
-      if (!examples.in_use() || !examples.elasticity().is_own())
+      if (!examples.elasticity().is_own())
         return of_body;
       return of_body.with_examples(examples.elasticity(), examples.importance);
     }
