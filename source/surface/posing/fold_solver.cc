@@ -340,11 +340,12 @@ namespace Exemplar
                                         : strengthening * std::max(stiffness[v], skin.stiffness[v]);
       Result next = result;
       settle(next, nearly_settled);
-      const SkinSprings::Ways ways      = skin.ways(next.x);
-      const bool              much      = ways.mean <= much_nearer * before.mean;
-      const double            least_det = (much ? hardly_less : 1.) * result.min_det;
-      const double            most      = much ? hardly_more * start.greatest
-                                               : std::min(hardly_more * before.greatest, start.greatest);
+      const SkinSprings::Ways ways = skin.ways(next.x);
+
+      const bool   much      = ways.mean <= much_nearer * before.mean;
+      const double least_det = (much ? hardly_less : 1.) * result.min_det;
+      const double most      = much ? hardly_more * start.greatest
+                                    : std::min(hardly_more * before.greatest, start.greatest);
       if (ways.mean > worthwhile * before.mean || ways.greatest > most
           || next.min_det < std::min(least_det, least_drawn))
         return;
