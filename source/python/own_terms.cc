@@ -2,7 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/function_term.h>
-#include <exemplar/python/own_terms.h>
+#include <exemplar/python/module_parts.h>
 #include <exemplar/python/term_check.h>
 
 #include <fmt/core.h>

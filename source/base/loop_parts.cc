@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/thread_team.h>
+#include <exemplar/base/loop_parts.h>
 
 #include <algorithm>
 #include <atomic>
