@@ -2,8 +2,6 @@
 #include <exemplar/body/fe_space.h>
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_simplex_p.h>
-#include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 namespace Exemplar
@@ -26,6 +24,20 @@ namespace Exemplar
       return in_order_of_elements.at(static_cast<std::size_t>(element));
     }
 
+    /// The derivative of a cell's places by those in the reference cell.
+    dealii::Tensor<2, 3>
+    jacobian(const std::vector<dealii::Point<3>> &places, const std::array<unsigned int, 4> &cell)
+    {
+      dealii::Tensor<2, 3> J;
+      for (unsigned int j = 0; j < 3; ++j)
+      {
+        const dealii::Tensor<1, 3> edge = places[cell[j + 1]] - places[cell[0]];
+        for (unsigned int i = 0; i < 3; ++i)
+          J[i][j] = edge[i];
+      }
+      return J;
+    }
+
     /// Distribute an amount to nodes, of which the vertices come first.
     void
     share_among(const dealii::ArrayView<const unsigned int> &nodes,
@@ -40,8 +52,7 @@ namespace Exemplar
   } // namespace
 
   FESpace::FESpace(const Mesh &mesh, const Element element)
-      : mesh(mesh), kind(element), nodes_of_element(mesh, element),
-        fe(dealii::FE_SimplexP<3>(traits_of(element).degree), 3), mapping(dealii::FE_SimplexP<3>(1))
+      : mesh(mesh), kind(element), nodes_of_element(mesh, element), fe(traits_of(element).degree)
   {
     compute_gradients();
     rest.reinit(n_dofs());
@@ -56,23 +67,24 @@ namespace Exemplar
   FESpace::compute_gradients()
   {
     const dealii::Quadrature<3> quadrature = quadratures_of(kind).stiffness;
-    dealii::FEValues<3>         fe_values(mapping, fe, quadrature,
-                                          dealii::update_gradients | dealii::update_JxW_values);
-    const auto                  n = static_cast<std::size_t>(nodes_per_cell(kind));
+    const auto                  n          = static_cast<unsigned int>(nodes_per_cell(kind));
     volumes.reserve(quadrature.size() * mesh.n_cells());
     shape_gradients.reserve(n * quadrature.size() * mesh.n_cells());
-    for (const auto &cell : mesh.get_triangulation().active_cell_iterators())
+    std::vector<dealii::Tensor<1, 3>> of_reference; // by point, then by node
+    for (const dealii::Point<3> &point : quadrature.get_points())
+      for (unsigned int a = 0; a < n; ++a)
+        of_reference.push_back(fe.shape_grad(a, point));
+    for (const auto &cell : mesh.get_cells())
     {
-      fe_values.reinit(cell);
-      for (unsigned int v = 0; v < 4; ++v)
-        AssertThrow(cell->vertex_index(v) == mesh.get_cells()[cell->active_cell_index()][v],
-                    dealii::ExcMessage("deal.II has permuted the nodes of a cell"));
-      for (const unsigned int q : fe_values.quadrature_point_indices())
+      const dealii::Tensor<2, 3> J         = jacobian(mesh.get_nodes(), cell);
+      const dealii::Tensor<2, 3> transform = dealii::transpose(dealii::invert(J));
+      const double               det       = dealii::determinant(J);
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
       {
-        volumes.push_back(fe_values.JxW(q));
+        volumes.push_back(det * quadrature.weight(q));
         for (unsigned int a = 0; a < n; ++a)
         {
-          const auto g = fe_values.shape_grad(fe.component_to_system_index(0, a), q);
+          const dealii::Tensor<1, 3> g = transform * of_reference[n * q + a];
           shape_gradients.push_back({ { g[0], g[1], g[2] } });
         }
       }
@@ -149,26 +161,14 @@ namespace Exemplar
   FESpace::compute_mass_matrix(const std::vector<double>    &density_of_cell,
                                dealii::SparseMatrix<double> &mass) const
   {
-    const dealii::Quadrature<3> quadrature = quadratures_of(kind).mass;
-    dealii::FEValues<3>         fe_values(mapping, fe, quadrature,
-                                          dealii::update_values | dealii::update_JxW_values);
-    mass = 0.;
-    for (const auto &cell : mesh.get_triangulation().active_cell_iterators())
+    const dealii::FullMatrix<double> of_unit = unit_mass_matrix();
+    mass                                     = 0.;
+    for (unsigned int cell = 0; cell < n_cells(); ++cell)
     {
-      fe_values.reinit(cell);
-      const unsigned int index = cell->active_cell_index();
-      const unsigned int n     = nodes_per_cell(kind);
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int b = 0; b < n; ++b)
-        {
-          const unsigned int dof_a    = fe.component_to_system_index(0, a);
-          const unsigned int dof_b    = fe.component_to_system_index(0, b);
-          double             integral = 0.;
-          for (const unsigned int q : fe_values.quadrature_point_indices())
-            integral += fe_values.shape_value(dof_a, q) * fe_values.shape_value(dof_b, q)
-                        * fe_values.JxW(q);
-          mass.add(nodes(index)[a], nodes(index)[b], density_of_cell[index] * integral);
-        }
+      const double mass_of_cell = density_of_cell[cell] * cell_volume(cell);
+      for (unsigned int a = 0; a < of_unit.m(); ++a)
+        for (unsigned int b = 0; b < of_unit.n(); ++b)
+          mass.add(nodes(cell)[a], nodes(cell)[b], mass_of_cell * of_unit(a, b));
     }
   }
 
@@ -179,7 +179,7 @@ namespace Exemplar
     const auto                  n          = static_cast<unsigned int>(nodes_per_cell(kind));
     dealii::FullMatrix<double>  mass(n, n);
     const auto                  shape = [&](const unsigned int a, const unsigned int q)
-    { return fe.shape_value(fe.component_to_system_index(0, a), quadrature.point(q)); };
+    { return fe.shape_value(a, quadrature.point(q)); };
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int b = 0; b < n; ++b)
         for (unsigned int q = 0; q < quadrature.size(); ++q)

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/mesh/distributed_triangulation.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/mesh_checks.h>
-
-#include <deal.II/grid/tria_accessor.h>
-#include <deal.II/grid/tria_iterator.h>
 
 #include <fmt/core.h>
 
@@ -132,21 +128,6 @@ namespace Exemplar
       std::vector<std::size_t>     internal;
       std::vector<std::size_t>     repeated;
     };
-
-    dealii::SubCellData
-    boundary_data(const std::vector<BoundaryFace> &faces)
-    {
-      dealii::SubCellData data;
-      for (const BoundaryFace &face : faces)
-        if (face.boundary_id != 0) // deal.II's own default
-        {
-          dealii::CellData<2> triangle(3);
-          std::copy(face.nodes.begin(), face.nodes.end(), triangle.vertices.begin());
-          triangle.boundary_id = face.boundary_id;
-          data.boundary_quads.push_back(triangle);
-        }
-      return data;
-    }
   } // namespace
 
   Mesh::Mesh(const MeshParameters &parameters)
@@ -225,35 +206,6 @@ namespace Exemplar
       part.arrays = std::move(arrays);
       return part;
     }
-
-    std::unique_ptr<dealii::Triangulation<3>>
-    make_triangulation(const MeshArrays &arrays)
-    {
-      const auto                      &cells = arrays.cells;
-      std::vector<dealii::CellData<3>> cell_data(cells.size(), dealii::CellData<3>(4));
-      for (std::size_t c = 0; c < cells.size(); ++c)
-      {
-        std::copy(cells[c].begin(), cells[c].end(), cell_data[c].vertices.begin());
-        cell_data[c].material_id = arrays.material_ids[c];
-      }
-      auto result = std::make_unique<dealii::Triangulation<3>>();
-      result->create_triangulation(arrays.contents.nodes, cell_data,
-                                   boundary_data(arrays.boundary_faces));
-      return result;
-    }
-
-    /// Check that deal.II's numbers are the file's, on which everything else relies: 9.5 has begun
-    /// to remove unused vertices when reading.
-    void
-    check_numbering(const dealii::Triangulation<3> &triangulation, const MeshArrays &arrays)
-    {
-      bool same = triangulation.n_active_cells() == arrays.cells.size()
-                  && triangulation.get_vertices() == arrays.contents.nodes;
-      for (const auto &cell : triangulation.active_cell_iterators())
-        for (const unsigned int v : cell->vertex_indices())
-          same = same && cell->vertex_index(v) == arrays.cells[cell->active_cell_index()][v];
-      AssertThrow(same, dealii::ExcMessage("deal.II numbers nodes or cells in another order."));
-    }
   } // namespace
 
   Mesh::Mesh(MshFile contents, const std::string &file_name, const double scale)
@@ -270,25 +222,11 @@ namespace Exemplar
   {
   }
 
-  const dealii::Triangulation<3> &
-  Mesh::get_triangulation() const
-  {
-    if (triangulation == nullptr)
-    {
-      triangulation = shared == nullptr
-                          ? make_triangulation(arrays)
-                          : make_distributed_triangulation(arrays, order.in_file(), *shared);
-      check_numbering(*triangulation, arrays);
-    }
-    return *triangulation;
-  }
-
   std::size_t
   Mesh::memory_consumption() const
   {
     const MshFile &contents = arrays.contents;
-    std::size_t    bytes    = (triangulation == nullptr ? 0 : triangulation->memory_consumption())
-                        + contents.nodes.capacity() * sizeof(contents.nodes[0])
+    std::size_t    bytes    = contents.nodes.capacity() * sizeof(contents.nodes[0])
                         + contents.node_numbers.capacity() * sizeof(contents.node_numbers[0])
                         + arrays.cells.capacity() * sizeof(arrays.cells[0])
                         + arrays.material_ids.capacity() * sizeof(arrays.material_ids[0])

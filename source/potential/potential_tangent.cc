@@ -40,7 +40,7 @@ namespace Exemplar
                                      ElasticPotential     &cells,
                                      const PotentialTerms &terms,
                                      const bool            in_parts)
-      : parts(parts), cells(cells), terms(terms)
+      : parts(parts), cells(cells), terms(terms), always_in_parts(in_parts)
   {
     make_pattern_of_couplings(in_parts);
     cells.attach(pattern);
@@ -94,8 +94,9 @@ namespace Exemplar
   }
 
   void
-  PotentialTangent::assemble_in_parts(const bool in_parts)
+  PotentialTangent::assemble_in_parts(const bool wanted)
   {
+    const bool in_parts = wanted || always_in_parts;
     if (pattern.products_are_apart == in_parts)
       return;
     pattern.products_are_apart = in_parts;

@@ -6,8 +6,7 @@
 #include <exemplar/kernels/tetrahedron.h>
 
 #include <deal.II/base/tensor.h>
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/vector.h>
@@ -19,10 +18,9 @@ namespace Exemplar
   /// The finite element space FE_SimplexP(1)^3 or FE_SimplexP(2)^3 on a mesh of straight edges.
   /// Degree of freedom 3 i + c is component c of node i of its NodeNumbering. Linear elements have
   /// one quadrature point a cell, quadratic ones four; those of cell c are the points c
-  /// points_per_cell() and following. Shape gradients and quadrature weights are computed once by
-  /// deal.II's FEValues and kept, because they never change and the hot loops need nothing else.
-  /// There is no DoFHandler, as deal.II's numbering of degrees of freedom is not needed and would
-  /// take 100 bytes a cell.
+  /// points_per_cell() and following. Shape gradients and quadrature weights are computed once, from
+  /// those of deal.II's reference element, and kept, because they never change and the hot loops
+  /// need nothing else. There is no Triangulation and no DoFHandler, whose numbers are not needed.
   class FESpace
   {
   public:
@@ -185,8 +183,7 @@ namespace Exemplar
     const Mesh                  &mesh;
     const Element                kind;
     const NodeNumbering          nodes_of_element;
-    const dealii::FESystem<3>    fe;
-    const dealii::MappingFE<3>   mapping;
+    const dealii::FE_SimplexP<3> fe; ///< of one component
     std::vector<Vector3<double>> shape_gradients;
     std::vector<double>          volumes;
     dealii::Vector<double>       rest;

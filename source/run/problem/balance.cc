@@ -72,12 +72,13 @@ namespace Exemplar
                   const FreeDofs        &free_dofs)
           : body(body), exchange(body.exchange()), free_dofs(free_dofs),
             weights(examples.weights.size(), 0.),
-            potential({ laws_of_cells(parameters, body), body.fe_space, body.material,
-                        body.cell_material, body.patches, examples.poses, examples.weights,
-                        free_dofs, parameters.solver.n_threads },
-                      {},
-                      nullptr,
-                      is_assembled_in_parts(parameters.solver, exchange)),
+            potential(
+                { laws_of_cells(parameters, body), body.fe_space, body.material, body.cell_material,
+                  body.patches, examples.poses, examples.weights, free_dofs,
+                  parameters.solver.n_threads },
+                {},
+                nullptr,
+                is_assembled_in_parts(parameters.solver, body.fe_space, examples.weights.size())),
             system(make_bordered_system(parameters.solver, potential))
       {
         ElasticEvaluation evaluation; // finds the rotations

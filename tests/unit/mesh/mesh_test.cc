@@ -21,22 +21,16 @@ namespace Exemplar::Testing
       EXPECT_EQ(mesh.get_material_ids(), (std::vector<unsigned int>{ 5, 6 }));
       EXPECT_DOUBLE_EQ(mesh.diameter(), std::sqrt(3.));
 
-      const auto &triangulation = mesh.get_triangulation();
-      EXPECT_EQ(triangulation.get_vertices(), mesh.get_nodes());
+      EXPECT_EQ(mesh.get_nodes(), two_tetrahedra().nodes);
       unsigned int n_faces_with_id = 0;
-      for (const auto &cell : triangulation.active_cell_iterators())
-      {
-        EXPECT_EQ(cell->material_id(), mesh.get_material_ids()[cell->active_cell_index()]);
-        for (const auto v : cell->vertex_indices())
-          EXPECT_EQ(cell->vertex_index(v), mesh.get_cells()[cell->active_cell_index()][v]);
-        for (const auto &face : cell->face_iterators())
-          if (face->at_boundary() && face->boundary_id() != 0)
-          {
-            ++n_faces_with_id;
-            EXPECT_EQ(face->boundary_id(), 7U);
-            EXPECT_EQ(face->center()[2], 0.);
-          }
-      }
+      for (const BoundaryFace &face : mesh.get_boundary_faces())
+        if (face.boundary_id != 0)
+        {
+          ++n_faces_with_id;
+          EXPECT_EQ(face.boundary_id, 7U);
+          for (const unsigned int node : face.nodes)
+            EXPECT_EQ(mesh.get_nodes()[node][2], 0.);
+        }
       EXPECT_EQ(n_faces_with_id, 1U);
     }
 
