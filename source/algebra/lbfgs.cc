@@ -2,17 +2,24 @@
 #include <exemplar/algebra/lbfgs.h>
 #include <exemplar/algebra/long_vectors.h>
 
+#include <algorithm>
+
 namespace Exemplar
 {
   void
-  Lbfgs::add_pair(const std::vector<double> &s, const std::vector<double> &y)
+  Lbfgs::add_pair(std::vector<double> &s, std::vector<double> &y)
   {
     const double curvature = exchange->sum(dot(s, y));
     if (!(curvature > 0.))
       return;
     if (pairs.size() == max_pairs)
-      pairs.pop_front();
-    pairs.push_back({ s, y, 1. / curvature });
+      std::rotate(pairs.begin(), pairs.begin() + 1, pairs.end()); // the oldest becomes the newest
+    else
+      pairs.emplace_back();
+    Pair &newest = pairs.back();
+    newest.s.swap(s);
+    newest.y.swap(y);
+    newest.rho = 1. / curvature;
   }
 
   void

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace Exemplar
 {
@@ -83,8 +82,10 @@ namespace Exemplar
     if (integrator != nullptr)
     {
       integrator->begin_step(start, step_size);
-      in_dynamic_step = true;
-      body.begin_step(integrator->stiffness_damping_factor(), integrator->history(start));
+      in_dynamic_step      = true;
+      const double damping = integrator->stiffness_damping_factor();
+      body.begin_step(damping,
+                      damping > 0. ? integrator->history(start) : std::vector<WeightedPositions>());
     }
     if (weights.get_memory().in_use())
       weights.set_step(integrator != nullptr ? integrator->weight_step(start)
@@ -121,14 +122,11 @@ namespace Exemplar
   {
     end.history = body.advance_history(end.positions);
     end.dissipated += weights.get_memory().dissipation(end.weights).total();
-    std::vector<double> of_terms;
     for (const auto &term : terms)
     {
-      of_terms.push_back(term->dissipation(end).value_or(0.));
+      end.dissipated += free_dofs.exchange().sum(term->dissipation(end).value_or(0.));
       term->end_step(end);
     }
-    free_dofs.exchange().sum(of_terms);
-    end.dissipated = std::accumulate(of_terms.begin(), of_terms.end(), end.dissipated);
   }
 
   bool
@@ -213,9 +211,10 @@ namespace Exemplar
       evaluation.term_energies.push_back(own->energy - before);
     }
     exchange.sum(evaluation.term_energies);
-    ElasticEvaluation sums = complete(exchange, std::move(own));
-    evaluation.gradient.swap(sums.gradient);
-    evaluation.force_scale.swap(sums.force_scale);
+    evaluation.gradient.swap(own->gradient);
+    evaluation.force_scale.swap(own->force_scale);
+    exchange.assemble(evaluation.gradient.begin(), 3);
+    exchange.assemble(evaluation.force_scale.begin(), 1);
     evaluation.gradient += evaluation.elastic.gradient;
     evaluation.force_scale += evaluation.elastic.force_scale;
     evaluation.potential = evaluation.elastic.energy + evaluation.elastic.energy_damping

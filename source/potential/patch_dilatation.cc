@@ -82,7 +82,7 @@ namespace Exemplar
   {
     const DilatationField &dilatation = cells->get_dilatation();
     find_means(*scatter, cells->n_threads(), dilatation.traces.data(), means);
-    std::vector<double> mean_squares(patches.size(), 0.);
+    mean_squares.assign(patches.size(), 0.);
     if (dilatation.has(long_cells))
       find_means(*scatter, cells->n_threads(), dilatation.squares.data(), mean_squares);
     guard.find(*cells, positions, means, mean_squares, share());
@@ -93,19 +93,15 @@ namespace Exemplar
   void
   PatchDilatation::write_pressures(const TermPoint &at)
   {
-    struct Told
-    {
-      double pressure, scale;
-    };
-    std::vector<Told> of_patches(patches.size());
-    const double      root = std::sqrt(3.); // |p I| = sqrt(3) |p|
+    pressures.resize(patches.size());
+    const double root = std::sqrt(3.); // |p I| = sqrt(3) |p|
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      const double lambda = patches.lambda(patch), mean = means[patch];
-      const double D  = examples.patch_dilatation(patch, at.weights);
-      Told        &to = of_patches[patch];
-      to              = { pressure_of_mean(lambda, share(), mean, D),
-                          root * std::abs(lambda) * (share() * std::abs(mean) + std::abs(D)) };
+      const double      lambda = patches.lambda(patch), mean = means[patch];
+      const double      D  = examples.patch_dilatation(patch, at.weights);
+      PressureOnPoints &to = pressures[patch];
+      to                   = { pressure_of_mean(lambda, share(), mean, D),
+                               root * std::abs(lambda) * (share() * std::abs(mean) + std::abs(D)) };
       if (volumes)
         to.scale += root * std::abs(volumes->pressure(patch));
       if (const double s = damping.factors[patch]; s > 0.)
@@ -121,9 +117,9 @@ namespace Exemplar
                   {
                     for (std::size_t point = begin; point < end; ++point)
                     {
-                      const Told &told            = of_patches[patches.of_point(point)];
-                      dilatation.pressures[point] = told.pressure;
-                      dilatation.scales[point]    = told.scale;
+                      const PressureOnPoints &told = pressures[patches.of_point(point)];
+                      dilatation.pressures[point]  = told.pressure;
+                      dilatation.scales[point]     = told.scale;
                     }
                   });
     guard.add_pressures(dilatation);
@@ -265,6 +261,7 @@ namespace Exemplar
   {
     using dealii::MemoryConsumption::memory_consumption;
     return patches.memory_consumption() + scatter->memory_consumption() + memory_consumption(means)
+           + memory_consumption(mean_squares) + pressures.capacity() * sizeof(PressureOnPoints)
            + memory_consumption(damping.past_means) + memory_consumption(damping.factors)
            + (volumes ? volumes->memory_consumption() : 0);
   }

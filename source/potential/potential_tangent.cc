@@ -40,7 +40,7 @@ namespace Exemplar
                                      const FreeDofs       &free_dofs,
                                      const PotentialTerms &terms,
                                      const bool            in_parts)
-      : body(body), free_dofs(free_dofs), terms(terms)
+      : body(body), free_dofs(free_dofs), terms(terms), always_in_parts(in_parts)
   {
     make_pattern_of_couplings(in_parts);
     body.attach(pattern);
@@ -88,8 +88,9 @@ namespace Exemplar
   }
 
   void
-  PotentialTangent::assemble_in_parts(const bool in_parts)
+  PotentialTangent::assemble_in_parts(const bool wanted)
   {
+    const bool in_parts = wanted || always_in_parts;
     if (pattern.products_are_apart == in_parts)
       return;
     pattern.products_are_apart = in_parts;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace Exemplar
 {
@@ -51,8 +52,9 @@ namespace Exemplar
   {
     SolveReport report;
     potential.begin_step(state, step_size);
-    State trial = state;
-    trial.time  = time;
+    State &trial = memory.trial;
+    trial        = state;
+    trial.time   = time;
     try
     {
       predict(state, step_size, trial, evaluation);
@@ -96,7 +98,7 @@ namespace Exemplar
     StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(trial.time, trial);
     prediction.predict(accepted, step_size, trial);
-    keep_within_max_step(potential, accepted.positions, trial.positions);
+    keep_within_max_step(potential, accepted.positions, trial.positions, memory.displacement);
     rebuild_metrics(accepted, step_size);
     potential.minimize_over_weights(trial, RotationUse::update, evaluation);
     potential.renew(trial, evaluation);
@@ -175,9 +177,9 @@ namespace Exemplar
   {
     StepClock::Scope     scope(clock, Phase::solve);
     std::vector<double> &step = iteration.rotated;
-    step                      = iteration.gradient;
-    for (double &entry : step)
-      entry = -entry;
+    step.resize(iteration.gradient.size());
+    std::transform(iteration.gradient.begin(), iteration.gradient.end(), step.begin(),
+                   std::negate<>());
     metric.rotate_back(step);
     const WeightLimits limits = potential.get_weights().limits_of_changes(trial.weights);
     metric.add_example_forces(
@@ -191,20 +193,20 @@ namespace Exemplar
   }
 
   bool
-  QuasiNewton::take_step(const Iteration &iteration,
-                         const double     slope,
-                         State           &trial,
-                         Evaluation      &evaluation,
-                         SolveReport     &report)
+  QuasiNewton::take_step(const double slope,
+                         State       &trial,
+                         Evaluation  &evaluation,
+                         SolveReport &report)
   {
-    const FreeDofs &free_dofs = potential.get_free_dofs();
-    const Merit     before(potential, evaluation);
-    double         &length  = report.step_length;
-    report.newton_decrement = -0.5 * slope;
-    Vector displacement(trial.positions.size());
-    free_dofs.add(1., iteration.direct, displacement);
-    length = std::min(1., potential.max_step(trial.positions, displacement));
-    free_dofs.add(length, iteration.direct, trial.positions);
+    const FreeDofs            &free_dofs = potential.get_free_dofs();
+    const std::vector<double> &step      = memory.iteration.direct;
+    const Merit                before(potential, evaluation);
+    double                    &length = report.step_length;
+    report.newton_decrement           = -0.5 * slope;
+    memory.displacement               = 0.;
+    free_dofs.add(1., step, memory.displacement);
+    length = std::min(1., potential.max_step(trial.positions, memory.displacement));
+    free_dofs.add(length, step, trial.positions);
     for (unsigned int halving = 0;; ++halving)
     {
       {
@@ -215,20 +217,20 @@ namespace Exemplar
         return true;
       if (halving == max_halvings)
       {
-        free_dofs.add(-length, iteration.direct, trial.positions);
+        free_dofs.add(-length, step, trial.positions);
         return false;
       }
       length *= 0.5;
-      free_dofs.add(-length, iteration.direct, trial.positions);
+      free_dofs.add(-length, step, trial.positions);
     }
   }
 
   void
-  QuasiNewton::learn(const State               &trial,
-                     const std::vector<double> &old_weights,
-                     std::vector<double>       &change,
-                     const double               step_length,
-                     Iteration                 &iteration)
+  QuasiNewton::learn(const State         &trial,
+                     std::vector<double> &old_weights,
+                     std::vector<double> &change,
+                     const double         step_length,
+                     Iteration           &iteration)
   {
     StepClock::Scope scope(clock, Phase::solve);
     for (std::size_t i = 0; i < change.size(); ++i)
@@ -237,10 +239,9 @@ namespace Exemplar
       iteration.rotated[i] *= step_length;
     }
     metric.rotate_back(change);
-    std::vector<double> weight_change(old_weights.size());
-    for (std::size_t i = 0; i < weight_change.size(); ++i)
-      weight_change[i] = trial.weights[i] - old_weights[i];
-    metric.add_example_forces(weight_change, change);
+    for (std::size_t i = 0; i < old_weights.size(); ++i)
+      old_weights[i] = trial.weights[i] - old_weights[i];
+    metric.add_example_forces(old_weights, change);
     lbfgs.add_pair(iteration.rotated, change);
   }
 
@@ -274,10 +275,11 @@ namespace Exemplar
                        Evaluation  &evaluation,
                        SolveReport &report)
   {
-    const FreeDofs     &free_dofs = potential.get_free_dofs();
-    std::vector<double> old_gradient, old_weights;
-    Iteration           iteration;
-    unsigned int        n_metrics = 0, n_with_metric = 0, n_changes = 0;
+    const FreeDofs      &free_dofs    = potential.get_free_dofs();
+    std::vector<double> &old_gradient = memory.old_gradient;
+    Iteration           &iteration    = memory.iteration;
+    unsigned int         n_metrics = 0, n_with_metric = 0, n_changes = 0;
+    iteration.last_length = iteration.last_contraction = 0.;
     free_dofs.gather(evaluation.gradient, iteration.gradient);
     for (bool is_near = false;;)
     {
@@ -292,10 +294,10 @@ namespace Exemplar
       }
       else if (is_near || has_met(parameters.tolerance, report))
         break;
-      old_weights             = trial.weights;
+      memory.old_weights      = trial.weights;
       const double slope      = find_step(trial, evaluation, iteration);
       const bool   is_descent = n_with_metric < max_iterations && slope < 0.
-                              && take_step(iteration, slope, trial, evaluation, report);
+                              && take_step(slope, trial, evaluation, report);
       if (!is_descent)
       {
         if (++n_metrics > max_metrics)
@@ -319,7 +321,7 @@ namespace Exemplar
       { return std::sqrt(free_dofs.exchange().sum(dot(vector, vector))); };
       const double old_norm = norm(old_gradient);
       const double ratio    = norm(iteration.gradient) / old_norm;
-      learn(trial, old_weights, old_gradient, report.step_length, iteration);
+      learn(trial, memory.old_weights, old_gradient, report.step_length, iteration);
       report_iteration(potential, evaluation, trial, report);
       is_near = has_arrived(accepted, trial, report, ratio, iteration);
     }
@@ -373,8 +375,14 @@ namespace Exemplar
   {
     if (metric.empty())
       return 0;
+    using dealii::MemoryConsumption::memory_consumption;
+    const Iteration &iteration = memory.iteration;
     return metric.memory_consumption() + history.positions.memory_consumption()
            + lbfgs.memory_consumption() + prediction.memory_consumption()
-           + dealii::MemoryConsumption::memory_consumption(node_rotations);
+           + memory_consumption(node_rotations) + memory_consumption(iteration.gradient)
+           + memory_consumption(iteration.direct) + memory_consumption(iteration.rotated)
+           + memory_consumption(memory.old_gradient) + memory.displacement.memory_consumption()
+           + memory.trial.positions.memory_consumption()
+           + memory.trial.velocities.memory_consumption();
   }
 } // namespace Exemplar

@@ -26,9 +26,10 @@ namespace Exemplar
       pairs.clear();
     }
 
-    /// Append a pair if its curvature s.y is positive.
+    /// Append a pair if its curvature s.y is positive. Both are swapped for the memory of a pair
+    /// that has left, so their values are lost.
     void
-    add_pair(const std::vector<double> &s, const std::vector<double> &y);
+    add_pair(std::vector<double> &s, std::vector<double> &y);
 
     /// Memory in bytes.
     std::size_t
@@ -74,7 +75,7 @@ namespace Exemplar
     struct Pair
     {
       std::vector<double> s, y;
-      double              rho;        ///< 1 / s.y
+      double              rho   = 0.; ///< 1 / s.y
       double              alpha = 0.; ///< rho s.vector, of before()
 
       template <typename Archive>

@@ -26,6 +26,13 @@ namespace Exemplar
     std::vector<double> factors;    ///< s, or 0 of patches that are left out
   };
 
+  /// What a patch tells its points.
+  struct PressureOnPoints
+  {
+    double pressure; ///< [Pa]
+    double scale;    ///< of the summands that it is the difference of [Pa]
+  };
+
   /// The volume part of Psi by patches, Eq. (25): sum lambda_p/2 V_p (theta_p - eta
   /// theta_p(E(w)))^2 with the mean theta_p of tr(e) over a patch, and its guard. The points' own energy is then
   /// that of a material without lambda, and the patch adds to their stress the pressure lambda_p
@@ -152,16 +159,18 @@ namespace Exemplar
     double
     tangent_factor(unsigned int patch, Tangent kind) const;
 
-    const Patches              &patches;
-    const ExamplePoses         &examples;
-    const FESpace              &fe_space;
-    CellField                  *cells     = nullptr; ///< since attach()
-    const FreeDofs             *free_dofs = nullptr; ///< since attach()
-    std::optional<PatchScatter> scatter;             ///< since attach()
-    PatchGuard                  guard;
-    std::optional<PatchVolumes> volumes; ///< of a law that knows J, since attach()
-    std::vector<double>         means;   ///< theta_p
-    PatchDamping                damping;
+    const Patches                &patches;
+    const ExamplePoses           &examples;
+    const FESpace                &fe_space;
+    CellField                    *cells     = nullptr; ///< since attach()
+    const FreeDofs               *free_dofs = nullptr; ///< since attach()
+    std::optional<PatchScatter>   scatter;             ///< since attach()
+    PatchGuard                    guard;
+    std::optional<PatchVolumes>   volumes;      ///< of a law that knows J, since attach()
+    std::vector<double>           means;        ///< theta_p
+    std::vector<double>           mean_squares; ///< |F|^2 of long cells, or 0
+    std::vector<PressureOnPoints> pressures;    ///< memory of write_pressures()
+    PatchDamping                  damping;
   };
 } // namespace Exemplar
 

@@ -15,7 +15,7 @@ namespace Exemplar
   {
   public:
     /// The tangent of a body and of terms; all must outlive it. If `in_parts`, the pattern is without the couplings of
-    /// outer products.
+    /// outer products, and stays so.
     PotentialTangent(ElasticBody          &body,
                      const FreeDofs       &free_dofs,
                      const PotentialTerms &terms,
@@ -38,6 +38,13 @@ namespace Exemplar
     /// From now on the pattern is one with the couplings of outer products, or without them.
     void
     assemble_in_parts(bool in_parts);
+
+    /// Whether it is without them from the beginning.
+    bool
+    is_always_in_parts() const
+    {
+      return always_in_parts;
+    }
 
     /// The free degrees of freedom, or the couplings of terms, are others from now on. All processes
     /// must call this.
@@ -80,6 +87,7 @@ namespace Exemplar
     ElasticBody          &body;
     const FreeDofs       &free_dofs;
     const PotentialTerms &terms;
+    const bool            always_in_parts;
     NodePairs             couplings; ///< of the terms
     SymmetricPattern      pattern;
     std::shared_ptr<const SymmetricPattern>

@@ -79,6 +79,15 @@ namespace Exemplar
       double              last_contraction = 0.;
     };
 
+    /// Vectors of a step, which stay from one step to the next for their memory alone.
+    struct Memory
+    {
+      State               trial;
+      Iteration           iteration;
+      std::vector<double> old_gradient, old_weights;
+      Vector              displacement;
+    };
+
     void
     predict(const State &accepted, double step_size, State &trial, Evaluation &evaluation);
 
@@ -124,20 +133,16 @@ namespace Exemplar
 
     /// Go along the step; false, with the trial back at its beginning, if nothing goes downhill.
     bool
-    take_step(const Iteration &iteration,
-              double           slope,
-              State           &trial,
-              Evaluation      &evaluation,
-              SolveReport     &report);
+    take_step(double slope, State &trial, Evaluation &evaluation, SolveReport &report);
 
     /// Keep the pair of the last step and the change of forces that it has made. `change` holds
-    /// the gradient before the step, and is overwritten.
+    /// the gradient before the step; it, `old_weights` and the rotated step are overwritten.
     void
-    learn(const State               &trial,
-          const std::vector<double> &old_weights,
-          std::vector<double>       &change,
-          double                     step_length,
-          Iteration                 &iteration);
+    learn(const State         &trial,
+          std::vector<double> &old_weights,
+          std::vector<double> &change,
+          double               step_length,
+          Iteration           &iteration);
 
     /// Whether the steps show that the trial is near enough to where they lead.
     bool
@@ -160,6 +165,7 @@ namespace Exemplar
     StepClock             &clock;
     Newton                 newton; ///< where this method does not converge
     MotionPrediction       prediction;
+    Memory                 memory;
     RotatedMetric          metric;
     std::vector<float>     node_rotations;
     Lbfgs                  lbfgs; ///< in the frame of the metric

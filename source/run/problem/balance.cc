@@ -78,7 +78,7 @@ namespace Exemplar
                       free_dofs,
                       {},
                       nullptr,
-                      is_assembled_in_parts(parameters.solver, exchange)),
+                      is_assembled_in_parts(parameters.solver, body.fe_space, examples.weights.size())),
             system(make_bordered_system(parameters.solver, potential))
       {
         ElasticEvaluation evaluation; // finds the rotations

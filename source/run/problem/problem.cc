@@ -56,7 +56,7 @@ namespace Exemplar
                   constraints.free_dofs,
                   actions.make_terms(body, cells.get_field(), actions.integrator.get()),
                   actions.integrator.get(),
-                  is_assembled_in_parts(parameters.solver, body.exchange())),
+                  is_assembled_in_parts(parameters.solver, body.fe_space, examples.weights.size())),
         system(
             potential,
             [this] { return make_bordered_system(parameters.solver, potential); },
@@ -122,8 +122,9 @@ namespace Exemplar
     check_weights(*this, interval);
     follow_time(state.time);
     constraints.handles.begin_step(state.time, state.positions);
-    State next = state;
-    next.step  = state.step + 1;
+    State &next = spare;
+    next        = state;
+    next.step   = state.step + 1;
     if (turns_freely(*this)
         && turn_to_support(*constraints.support, parameters.model.is_frozen() ? 0. : max_turn,
                            next.positions, body.exchange()))

@@ -165,10 +165,12 @@ namespace Exemplar
     const bool energy_is_bounded;
   };
 
-  /// Whether matrix and outer products are assembled apart at first: if multigrid is certain to be
-  /// chosen.
+  /// Whether matrix and outer products are always assembled apart: if multigrid is certain to be
+  /// chosen, with so many weights at most.
   bool
-  is_assembled_in_parts(const SolverParameters &solver, const Exchange &exchange);
+  is_assembled_in_parts(const SolverParameters &solver,
+                        const FESpace          &fe_space,
+                        unsigned int            n_weights);
 
   /// The bordered system of a step with the linear solver of the scene or, if that is automatic,
   /// the faster one; adapts the potential's sparsity pattern to it.
