@@ -8,6 +8,7 @@
 #include <exemplar/body/state.h>
 #include <exemplar/potential/cell_field.h>
 #include <exemplar/potential/elastic_body.h>
+#include <exemplar/potential/gap.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
@@ -169,6 +170,26 @@ namespace Exemplar
     max_step(const Vector & /*positions*/, const Vector & /*displacement*/) const
     {
       return std::numeric_limits<double>::infinity();
+    }
+
+    /// Append all gaps of the body at these positions whose distance is below `range` times their width, in an order
+    /// that the mesh decides.
+    virtual void
+    append_gaps(const Vector & /*positions*/, double /*range*/, std::vector<Gap> & /*gaps*/) const
+    {
+    }
+
+    /// Obstacles stand from now on where they are at this time [s] within a step; set_time() moves them to its end.
+    virtual void
+    move_to(double /*time*/)
+    {
+    }
+
+    /// Whether obstacles, not loads, stand elsewhere at these two times [s].
+    virtual bool
+    moves_between(double /*time*/, double /*other_time*/) const
+    {
+      return false;
     }
 
     /// A residual force [N] that is nothing but rounding.
