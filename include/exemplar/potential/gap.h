@@ -10,8 +10,8 @@ namespace Exemplar
 {
   /// A gap between the body and what it may not pass: distance d > 0 [m] of a point sum c_i x_{n_i} (or of a pair)
   /// and its gradient along `normal`: that by x_{n_i} is c_i * normal. Its barrier's energy is that of
-  /// Barrier{stiffness, width}. Where there is friction it has, beside that, the energy `friction` f(y) with y the length
-  /// of the slip across `friction_normal`, and f' = 2 y/e - (y/e)^2 below e = `slip_width`, 1 above.
+  /// Barrier{stiffness, width}; a stiffness of 0 says that it has none. Where it rubs it has the energy `friction` f(y), too,
+  /// with y the length of the slip across `friction_normal`, f' = 2 y/e - (y/e)^2 below e = `slip_width` and 1 beyond.
   struct Gap
   {
     unsigned int                n_nodes = 0;

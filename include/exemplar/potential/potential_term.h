@@ -180,6 +180,13 @@ namespace Exemplar
       return max_step(positions, displacement);
     }
 
+    /// What of the term, in words, does not allow all of max_step_to().
+    virtual std::string
+    limit_to(double /*time*/, const Vector & /*positions*/, const Vector & /*displacement*/) const
+    {
+      return "the term '" + name() + "'";
+    }
+
     /// The greatest width of a gap [m]; 0 for a term that has none. The tangent of a term with gaps stays out of inverses
     /// that are kept for many steps: barriers are too far from quadratic.
     virtual double
