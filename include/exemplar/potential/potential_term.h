@@ -37,11 +37,12 @@ namespace Exemplar
     couplings ///< it couples other nodes, too
   };
 
-  /// What frames show of a term: three numbers a node, by degree of freedom.
+  /// What frames show of a term: three numbers a node, by degree of freedom, or one.
   struct NodalField
   {
-    std::string name; ///< in the files
-    Vector      values;
+    std::string  name; ///< in the files
+    Vector       values;
+    unsigned int n_components = 3;
   };
 
   /// Why a term has no gradients, as in "There are no gradients {what} yet. {remedy}". Empty: it has.
