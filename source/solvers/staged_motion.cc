@@ -18,8 +18,9 @@ namespace Exemplar
     constexpr double       carried_to    = 0.5;  ///< widths
     constexpr double       carried_error = 0.02; ///< widths
     constexpr unsigned int max_carries = 3; ///< in a stage, as nodes that follow are overtaken, too
-    constexpr unsigned int max_push_steps = 200; ///< for one of these
-    constexpr unsigned int max_stages         = 40;
+    constexpr unsigned int max_push_steps       = 200; ///< for one of these
+    constexpr unsigned int max_halvings_of_part = 10;
+    constexpr unsigned int max_stages           = 40;
     constexpr double       min_part      = 1e-6; ///< of the way: less in one stage is no progress
     constexpr double       greatest_turn = 5. * 3.14159265358979323846 / 180.;
   } // namespace
@@ -117,13 +118,32 @@ namespace Exemplar
       }
       if (!(part > min_part))
         break;
-      at.add(part, way);
-      now += part * (time - now);
-      potential.move_to(now);
+      go(part, time, way, at, now);
     }
     to = target;
     to -= at;
     refuse(now, time, at, to);
+  }
+
+  void
+  StagedMotion::go(double part, const double time, const Vector &way, Vector &at, double &now) const
+  {
+    // obstacles need not go straight on: half the part, until all gaps are open
+    const Vector from  = at;
+    const double start = now;
+    for (unsigned int halving = 0; halving < max_halvings_of_part; ++halving, part *= 0.5)
+    {
+      at = from;
+      at.add(part, way);
+      now = start + part * (time - start);
+      potential.move_to(now);
+      bool is_closed = false;
+      for (const Gap &gap : potential.gaps(at, overtaken))
+        is_closed |= gap.stiffness > 0. && !(gap.distance > 0.);
+      if (!potential.get_free_dofs().exchange().any(is_closed))
+        return;
+    }
+    refuse(start, time, from, way);
   }
 
   void

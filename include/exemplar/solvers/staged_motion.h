@@ -45,6 +45,10 @@ namespace Exemplar
     move_part(
         double start_time, const Vector &from, double time, Vector &to, const Follow &follow) const;
 
+    /// Go a part of a way, and the obstacles that of theirs to `time`.
+    void
+    go(double part, double time, const Vector &way, Vector &at, double &now) const;
+
     /// Put what is overtaken by obstacles where they stand into the middle of its gaps' widths.
     void
     carry(Vector &to, const Follow &follow) const;
