@@ -16,6 +16,9 @@ namespace Exemplar
 
     /// The part of a gap that a step leaves, at least.
     constexpr double part_left = 0.1;
+
+    /// Of an obstacle in one go, so that its way in space is almost straight [rad].
+    constexpr double greatest_turn_at_once = 0.0873;
   } // namespace
 
   void
@@ -55,7 +58,7 @@ namespace Exemplar
   }
 
   Places
-  ContactSearch::places_of(const Vector &positions) const
+  ContactSearch::places_of(const Vector &positions, const ObstaclePose &pose) const
   {
     Places result(positions.size() / 3);
     for (const ContactSurface::Node &at : surface.nodes)
@@ -63,7 +66,7 @@ namespace Exemplar
       SpaceVector3 x;
       for (unsigned int c = 0; c < 3; ++c)
         x[c] = positions[3 * at.node + c];
-      result[at.node] = standing.pose.to_own(x);
+      result[at.node] = pose.to_own(x);
     }
     return result;
   }
@@ -249,6 +252,7 @@ namespace Exemplar
                           const std::array<SpaceVector3, 3> &x,
                           const std::array<SpaceVector3, 3> &way,
                           const unsigned int                 n,
+                          const double                       own_way,
                           const double                       longest) const
   {
     const PairDistance at   = distance(pair, x);
@@ -262,6 +266,7 @@ namespace Exemplar
     double speed = 0.;
     for (unsigned int i = 0; i < n; ++i)
       speed = std::max(speed, way[i].norm());
+    speed += own_way;
     // additive: nothing is passed on a way that is shorter than the distance
     if (!(speed * longest > at.distance - left))
       return longest;
@@ -271,7 +276,7 @@ namespace Exemplar
       std::array<SpaceVector3, 3> moved;
       for (unsigned int i = 0; i < n; ++i)
         moved[i] = x[i] + tried * way[i];
-      const double now = distance(pair, moved).distance;
+      const double now = distance(pair, moved).distance - tried * own_way;
       if (!(now >= left))
         return part;
       part  = tried;
@@ -281,22 +286,54 @@ namespace Exemplar
   }
 
   double
-  ContactSearch::max_step(const Vector &positions, const Vector &displacement) const
+  ContactSearch::max_step(const Places &places,
+                          const Places &ends,
+                          const double  own_way,
+                          double        longest) const
   {
-    Vector end = positions;
-    end += displacement;
-    const Places places = places_of(positions), ends = places_of(end);
-    // what lies beyond the displacement has not been looked at, but half spaces know
-    double longest = standing.shape().vertices.empty() ? std::numeric_limits<double>::infinity() : 1.;
-    visit_candidates(places, ends, 0.,
+    visit_candidates(places, ends, own_way,
                      [&](const ContactPair &pair)
                      {
                        const PairCorners           x = corners(pair, places);
                        std::array<SpaceVector3, 3> way;
                        for (unsigned int i = 0; i < x.n; ++i)
                          way[i] = ends[x.nodes[i]] - x.places[i];
-                       longest = max_step(pair, x.places, way, x.n, longest);
+                       longest = max_step(pair, x.places, way, x.n, own_way, longest);
                      });
     return longest;
+  }
+
+  double
+  ContactSearch::max_step(const Vector &positions, const Vector &displacement) const
+  {
+    Vector end = positions;
+    end += displacement;
+    // what lies beyond the displacement has not been looked at, but half spaces know
+    const double longest
+        = standing.shape().vertices.empty() ? std::numeric_limits<double>::infinity() : 1.;
+    return max_step(places_of(positions), places_of(end), 0., longest);
+  }
+
+  double
+  ContactSearch::max_step_to(const double  time,
+                             const Vector &positions,
+                             const Vector &displacement) const
+  {
+    Vector end = positions;
+    end += displacement;
+    const Obstacle    &obstacle = *standing.obstacle;
+    const ObstaclePose pose     = obstacle.pose(time);
+    const double       cosine
+        = 0.5 * (trace(dealii::transpose(standing.pose.rotation) * pose.rotation) - 1.);
+    const double turn    = std::acos(std::clamp(cosine, -1., 1.));
+    double       own_way = 0.;
+    if (obstacle.deforms())
+    {
+      const std::vector<SpaceVector3> vertices = obstacle.vertices(time);
+      for (std::size_t v = 0; v < vertices.size(); ++v)
+        own_way = std::max(own_way, (vertices[v] - standing.vertices[v]).norm());
+    }
+    return max_step(places_of(positions), places_of(end, pose), own_way,
+                    turn > greatest_turn_at_once ? greatest_turn_at_once / turn : 1.);
   }
 } // namespace Exemplar

@@ -78,8 +78,7 @@ namespace Exemplar
   IncrementalPotential::begin_step(const State &start, const double step_size)
   {
     body.set_history(start.history);
-    body.set_step_size(
-        integrator != nullptr ? step_size : std::numeric_limits<double>::infinity());
+    body.set_step_size(integrator != nullptr ? step_size : std::numeric_limits<double>::infinity());
     if (integrator != nullptr)
     {
       integrator->begin_step(start, step_size);
@@ -242,6 +241,67 @@ namespace Exemplar
                                          body.rounding_weight_gradient());
     residual.multipliers      = std::move(of_weights.multipliers);
     return residual;
+  }
+
+  double
+  IncrementalPotential::max_step_to(const double  time,
+                                    const Vector &positions,
+                                    const Vector &displacement) const
+  {
+    double part = std::numeric_limits<double>::infinity();
+    for (const auto &term : terms)
+      part = std::min(part, term->max_step_to(time, positions, displacement));
+    return min_of_all(free_dofs.exchange(), part);
+  }
+
+  std::string
+  IncrementalPotential::limit_to(const double  time,
+                                 const Vector &positions,
+                                 const Vector &displacement) const
+  {
+    for (const auto &term : terms)
+    {
+      const bool limits = term->max_step_to(time, positions, displacement) < 1.;
+      if (const std::string who = free_dofs.exchange().first_text(
+              limits ? term->limit_to(time, positions, displacement) : "");
+          !who.empty())
+        return who;
+    }
+    return "";
+  }
+
+  double
+  IncrementalPotential::gap_width() const
+  {
+    double width = 0.;
+    for (const auto &term : terms)
+      width = std::max(width, term->gap_width());
+    return width;
+  }
+
+  std::vector<Gap>
+  IncrementalPotential::gaps(const Vector &positions, const double range) const
+  {
+    std::vector<Gap> all;
+    for (const auto &term : terms)
+      term->append_gaps(positions, range, all);
+    return all;
+  }
+
+  void
+  IncrementalPotential::move_to(const double time)
+  {
+    for (const auto &term : terms)
+      term->move_to(time);
+  }
+
+  bool
+  IncrementalPotential::moves_between(const double time, const double other_time) const
+  {
+    bool moves = false;
+    for (const auto &term : terms)
+      moves |= term->moves_between(time, other_time);
+    return free_dofs.exchange().any(moves);
   }
 
   double

@@ -77,6 +77,45 @@ namespace Exemplar
     for (const Contact &contact : contacts(positions, range))
       if (contact.gap.stiffness > 0.)
         gaps.push_back(contact.gap);
+    for (const Rubbing &at : rubbing)
+    {
+      const SlipEnergy energy = slip_energy(at);
+      Gap              gap    = at.gap;
+      gap.stiffness           = 0.; // where it rubs is not where it is nearest by now
+      gap.distance            = gap.width;
+      gap.friction            = energy.greatest;
+      gap.slip_width          = energy.e;
+      gap.friction_normal     = at.gap.normal;
+      gap.slip                = slip(at, positions);
+      gaps.push_back(gap);
+    }
+  }
+
+  double
+  ObstacleTerm::max_step_to(const double  to_time,
+                            const Vector &positions,
+                            const Vector &displacement) const
+  {
+    double part = std::numeric_limits<double>::infinity();
+    for (unsigned int i = 0; i < standing.size(); ++i)
+      if (is_there(i))
+        part = std::min(part, ContactSearch(surface, obstacles, standing[i], i)
+                                  .max_step_to(to_time, positions, displacement));
+    return part;
+  }
+
+  std::string
+  ObstacleTerm::limit_to(const double  to_time,
+                         const Vector &positions,
+                         const Vector &displacement) const
+  {
+    for (unsigned int i = 0; i < standing.size(); ++i)
+      if (is_there(i)
+          && ContactSearch(surface, obstacles, standing[i], i)
+                     .max_step_to(to_time, positions, displacement)
+                 < 1.)
+        return "the obstacle '" + obstacles.all[i].name() + "'";
+    return PotentialTerm::limit_to(to_time, positions, displacement);
   }
 
   double

@@ -31,6 +31,7 @@ namespace Exemplar
   {
     if (empty()) // the first time
       find_rotated_nodes();
+    ++n_reinits;
     rotations_then = rotations;
     inverse        = system.keep();
     form           = &system.weight_form();
@@ -68,6 +69,19 @@ namespace Exemplar
       for (int i = 0; i < 3; ++i)
         v[i] = W[row * i] * x + W[row * i + column] * y + W[row * i + 2 * column] * z;
     }
+  }
+
+  dealii::Tensor<1, 3>
+  RotatedMetric::rotate_back(const unsigned int node, const dealii::Tensor<1, 3> &vector) const
+  {
+    const auto place = std::lower_bound(rotated_nodes.begin(), rotated_nodes.end(), node);
+    if (place == rotated_nodes.end() || *place != node)
+      return vector; // held in part
+    const float         *W = &rotations_since[9 * (place - rotated_nodes.begin())];
+    dealii::Tensor<1, 3> result;
+    for (int i = 0; i < 3; ++i)
+      result[i] = W[i] * vector[0] + W[i + 3] * vector[1] + W[i + 6] * vector[2];
+    return result;
   }
 
   std::vector<double>

@@ -120,6 +120,11 @@ namespace Exemplar
     double
     max_step(const Vector &positions, const Vector &displacement) const;
 
+    /// The same while the obstacle goes on to where it is at this time [s], of a way in its axes; at most as much as it turns
+    /// by five degrees.
+    double
+    max_step_to(double time, const Vector &positions, const Vector &displacement) const;
+
     PairCorners
     corners(const ContactPair &pair, const Places &places) const;
 
@@ -132,8 +137,20 @@ namespace Exemplar
     width(const ContactPair &pair) const;
 
   private:
+    /// With the obstacle's axes there.
     Places
-    places_of(const Vector &positions) const;
+    places_of(const Vector &positions, const ObstaclePose &pose) const;
+
+    Places
+    places_of(const Vector &positions) const
+    {
+      return places_of(positions, standing.pose);
+    }
+
+    /// The part of the way from `places` to `ends` that may be gone beside an obstacle whose vertices go `own_way` [m] in its axes, at
+    /// most; `longest` at most.
+    double
+    max_step(const Places &places, const Places &ends, double own_way, double longest) const;
 
     /// Call visit(pair) for all pairs whose boxes, on the way from `places` to `ends`, are nearer than `reach`.
     template <typename Visit>
@@ -149,12 +166,13 @@ namespace Exemplar
     Contact
     contact(const ContactPair &pair, const PairCorners &corners, const PairDistance &at) const;
 
-    /// `longest`, or less, for n nodes that go these ways.
+    /// `longest`, or less, for n nodes that go these ways, and the obstacle's vertices one of that length.
     double
     max_step(const ContactPair                 &pair,
              const std::array<SpaceVector3, 3> &places,
              const std::array<SpaceVector3, 3> &ways,
              unsigned int                       n,
+             double                             own_way,
              double                             longest) const;
 
     const ContactSurface   &surface;

@@ -65,6 +65,18 @@ namespace Exemplar
       return obstacles.move_between(time, other_time);
     }
 
+    double
+    max_step_to(double time, const Vector &positions, const Vector &displacement) const override;
+
+    std::string
+    limit_to(double time, const Vector &positions, const Vector &displacement) const override;
+
+    double
+    gap_width() const override
+    {
+      return obstacles.width;
+    }
+
     void
     append_gaps(const Vector &positions, double range, std::vector<Gap> &gaps) const override;
 

@@ -53,6 +53,13 @@ namespace Exemplar
     void
     attach(PotentialTerm &term);
 
+    /// Which terms to take: those with gaps stay out of inverses that are kept, PotentialTerm::gap_width().
+    enum class Terms
+    {
+      all,
+      without_gaps
+    };
+
     /// A and G: exact for convexity 0, convex for 1, a mixture between. There must be `products`, which
     /// A is the sum of the values and, where the pattern is without them.
     void
@@ -61,7 +68,8 @@ namespace Exemplar
              double                     convexity,
              std::vector<double>       &matrix_values,
              std::vector<double>       &columns,
-             OuterProducts             *products = nullptr);
+             OuterProducts             *products = nullptr,
+             Terms                      which    = Terms::all);
 
   private:
     /// Make the pattern of cells, patches and terms as they are.
@@ -75,7 +83,8 @@ namespace Exemplar
                  const std::vector<double> &weights,
                  std::vector<double>       &values,
                  std::vector<double>       &columns,
-                 OuterProducts             *products);
+                 OuterProducts             *products,
+                 Terms                      which);
 
     const ElasticParts    parts;
     ElasticPotential     &cells;

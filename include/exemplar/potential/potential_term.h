@@ -173,6 +173,29 @@ namespace Exemplar
       return std::numeric_limits<double>::infinity();
     }
 
+    /// The part of `displacement` that the body may go while obstacles go the same part of the way from where they stand
+    /// to where they are at `time` [s] within the step.
+    virtual double
+    max_step_to(double /*time*/, const Vector &positions, const Vector &displacement) const
+    {
+      return max_step(positions, displacement);
+    }
+
+    /// What of the term, in words, does not allow all of max_step_to().
+    virtual std::string
+    limit_to(double /*time*/, const Vector & /*positions*/, const Vector & /*displacement*/) const
+    {
+      return "the term '" + name() + "'";
+    }
+
+    /// The greatest width of a gap [m]; 0 for a term that has none. The tangent of a term with gaps stays out of inverses
+    /// that are kept for many steps: barriers are too far from quadratic.
+    virtual double
+    gap_width() const
+    {
+      return 0.;
+    }
+
     /// Append all gaps of the body at these positions whose distance is below `range` times their width, in an order
     /// that the mesh decides.
     virtual void

@@ -3,9 +3,11 @@
 #define exemplar_quasi_newton_h
 
 #include <exemplar/algebra/lbfgs.h>
+#include <exemplar/solvers/contact_model.h>
 #include <exemplar/solvers/motion_prediction.h>
 #include <exemplar/solvers/newton.h>
 #include <exemplar/solvers/rotated_metric.h>
+#include <exemplar/solvers/staged_motion.h>
 
 #include <vector>
 
@@ -73,14 +75,21 @@ namespace Exemplar
     struct Iteration
     {
       std::vector<double> gradient; ///< by free degree of freedom, at the trial
-      std::vector<double> direct;   ///< the displacement
-      std::vector<double> rotated;  ///< the same in the frame of the metric
-      double              last_length      = 0.;
-      double              last_contraction = 0.;
+      std::vector<double>
+          contact; ///< the part of the gradient that gaps make; empty where none pushes
+      std::vector<double> direct;                         ///< the displacement
+      std::vector<double> rotated;                        ///< the same in the frame of the metric
+      std::unique_ptr<ContactModel::AlongDirection> gaps; ///< along it; null where none matters
+      double                                        last_length      = 0.;
+      double                                        last_contraction = 0.;
     };
 
     void
     predict(const State &accepted, double step_size, State &trial, Evaluation &evaluation);
+
+    /// Have a metric, with the nodes as they are where the step starts.
+    void
+    begin_with_metric(const State &start, double step_size);
 
     void
     make_metric(const Vector &positions, const std::vector<double> &weights);
@@ -118,9 +127,17 @@ namespace Exemplar
     void
     rebuild_metrics(const State &accepted, double step_size);
 
+    /// Gather the gradient at the trial, and the part of it that gaps make.
+    void
+    measure(const State &trial, const Evaluation &evaluation, Iteration &iteration) const;
+
     /// Find the step at the trial; returns the slope along it.
     double
     find_step(const State &trial, const Evaluation &evaluation, Iteration &iteration);
+
+    /// What a part of the step along which the potential has that slope should change it by.
+    double
+    expected_change(const Iteration &iteration, double slope, double length) const;
 
     /// Go along the step; false, with the trial back at its beginning, if nothing goes downhill.
     bool
@@ -130,11 +147,12 @@ namespace Exemplar
               Evaluation      &evaluation,
               SolveReport     &report);
 
-    /// Keep the pair of the last step and the change of forces that it has made. `change` holds
-    /// the gradient before the step, and is overwritten.
+    /// Keep the pair of the last step and the change of forces that it has made, without those of gaps. `change` holds
+    /// the gradient before the step, and is overwritten; `old_contact` is what gaps made of it.
     void
     learn(const State               &trial,
           const std::vector<double> &old_weights,
+          const std::vector<double> &old_contact,
           std::vector<double>       &change,
           double                     step_length,
           Iteration                 &iteration);
@@ -160,9 +178,11 @@ namespace Exemplar
     StepClock             &clock;
     Newton                 newton; ///< where this method does not converge
     MotionPrediction       prediction;
+    StagedMotion           motion;
     RotatedMetric          metric;
     std::vector<float>     node_rotations;
     Lbfgs                  lbfgs; ///< in the frame of the metric
+    ContactModel           contact;
     MetricHistory          history;
     MetricHistory          next; ///< of the metric that a thread makes; without positions: none
     std::vector<float>     next_rotations; ///< of the nodes where it was assembled
