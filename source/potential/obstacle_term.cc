@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/potential/barrier.h>
+#include <exemplar/potential/contact_clearance.h>
 #include <exemplar/potential/nodal_vectors.h>
 #include <exemplar/potential/obstacle_term.h>
 
@@ -16,6 +19,7 @@ namespace Exemplar
                              const Material       &material)
       : obstacles(obstacles), surface(surface), material(material),
         have_friction(obstacles.have_friction()), sums_of(obstacles.all.size()),
+        has_appeared(obstacles.all.size(), 0),
         least_gap(obstacles.width)
   {
     for (const Obstacle &obstacle : obstacles.all)
@@ -137,9 +141,7 @@ namespace Exemplar
     step_size = new_step_size;
     start     = at.positions;
     in_step   = true;
-    there.clear();
-    for (const Obstacle &obstacle : obstacles.all)
-      there.push_back(obstacle.is_there(at.time) ? 1 : 0);
+    follow_times(at);
     rubbing.clear();
     last_rubbing.clear();
     n_renewals = 0;
@@ -148,6 +150,28 @@ namespace Exemplar
     at_start = standing;
     for (StandingObstacle &obstacle : at_start)
       obstacle.move_to(at.time);
+  }
+
+  void
+  ObstacleTerm::follow_times(const State &at)
+  {
+    there.clear();
+    for (unsigned int i = 0; i < standing.size(); ++i)
+    {
+      const Obstacle &obstacle = obstacles.all[i];
+      there.push_back(obstacle.is_there(at.time) ? 1 : 0);
+      if (!obstacle.appears() || there[i] == 0 || has_appeared[i] != 0)
+        continue;
+      StandingObstacle now(obstacle);
+      now.move_to(at.time);
+      const Clearance room = clearance(surface, obstacles, now, i, at.positions, obstacles.width,
+                                       free_dofs->exchange());
+      if (room.is_crossed || room.least < obstacles.width)
+        throw SolverFailure("Obstacles/" + obstacle.name() + " appears at t = " + shortest_text(at.time)
+                            + " s where the body is, or nearer to it than the distance from which "
+                              "it pushes. Change its From, or where it is then.");
+      has_appeared[i] = 1;
+    }
   }
 
   std::vector<Rubbing>
@@ -460,13 +484,13 @@ namespace Exemplar
   void
   ObstacleTerm::save(boost::archive::binary_oarchive &archive) const
   {
-    archive << sums_of << barrier_energy << least_gap << n_pairs;
+    archive << has_appeared << sums_of << barrier_energy << least_gap << n_pairs;
   }
 
   void
   ObstacleTerm::load(boost::archive::binary_iarchive &archive)
   {
-    archive >> sums_of >> barrier_energy >> least_gap >> n_pairs;
+    archive >> has_appeared >> sums_of >> barrier_energy >> least_gap >> n_pairs;
   }
 
   std::size_t

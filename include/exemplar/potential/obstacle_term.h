@@ -148,6 +148,11 @@ namespace Exemplar
     void
     visit_blocks(const Vector &positions, Tangent kind, const Visit &visit) const;
 
+    /// Which obstacles are there in the step that begins at this state. Throws SolverFailure for one that appears where
+    /// the body is.
+    void
+    follow_times(const State &at);
+
     /// What would rub at these positions.
     std::vector<Rubbing>
     rubbing_at(const Vector &positions) const;
@@ -183,6 +188,7 @@ namespace Exemplar
     std::vector<Rubbing>          last_rubbing; ///< where the last iteration began
     unsigned int                  n_renewals = 0;
     std::vector<Sums>             sums_of;  ///< of this process
+    std::vector<char>             has_appeared; ///< of those with From, whether they have been there
     double                        barrier_energy = 0.; ///< where a step ended
     double                        least_gap;
     double                        n_pairs = 0.;
