@@ -429,6 +429,25 @@ namespace Exemplar
 
   // What is shown and remembered
 
+  std::vector<ObstacleReport>
+  ObstacleTerm::report() const
+  {
+    std::vector<ObstacleReport> result;
+    for (unsigned int i = 0; i < sums_of.size(); ++i)
+    {
+      const Sums           &own = sums_of[i];
+      std::array<double, 8> all{ { own.force[0], own.force[1], own.force[2], own.torque[0],
+                                   own.torque[1], own.torque[2], own.work, own.heat } };
+      free_dofs->exchange().sum(all.data(), all.size());
+      result.push_back({ obstacles.all[i].name(),
+                         dealii::Point<3>(all[0], all[1], all[2]),
+                         dealii::Point<3>(all[3], all[4], all[5]),
+                         all[6],
+                         all[7] });
+    }
+    return result;
+  }
+
   void
   ObstacleTerm::append_columns(const double /*energy*/,
                                std::vector<std::pair<std::string, double>> &columns) const
@@ -438,21 +457,17 @@ namespace Exemplar
     columns.emplace_back("least_gap", min_of_all(exchange, least_gap));
     columns.emplace_back("contact_pairs", exchange.sum(n_pairs));
     double heat = 0.;
-    for (unsigned int i = 0; i < sums_of.size(); ++i)
+    for (const ObstacleReport &obstacle : report())
     {
-      const Sums             &own = sums_of[i];
-      std::array<double, 8>   all{ { own.force[0], own.force[1], own.force[2], own.torque[0],
-                                     own.torque[1], own.torque[2], own.work, own.heat } };
-      exchange.sum(all.data(), all.size());
-      const std::string name = "contact_" + obstacles.all[i].name();
+      const std::string name = "contact_" + obstacle.name;
       for (unsigned int c = 0; c < 3; ++c)
-        columns.emplace_back(name + "_" + "xyz"[c], all[c]);
+        columns.emplace_back(name + "_" + "xyz"[c], obstacle.force[c]);
       for (unsigned int c = 0; c < 3; ++c)
-        columns.emplace_back(name + "_torque_" + "xyz"[c], all[3 + c]);
-      columns.emplace_back(name + "_work", all[6]);
+        columns.emplace_back(name + "_torque_" + "xyz"[c], obstacle.torque[c]);
+      columns.emplace_back(name + "_work", obstacle.work);
       if (have_friction)
-        columns.emplace_back(name + "_heat", all[7]);
-      heat += all[7];
+        columns.emplace_back(name + "_heat", obstacle.heat);
+      heat += obstacle.heat;
     }
     if (have_friction)
       columns.emplace_back("heat_friction", heat);

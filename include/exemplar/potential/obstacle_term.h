@@ -10,6 +10,14 @@
 
 namespace Exemplar
 {
+  /// What an obstacle did to the body at the end of the last step, and since the beginning.
+  struct ObstacleReport
+  {
+    std::string  name;
+    SpaceVector3 force, torque; ///< on the body [N], [N m]
+    double       work, heat;    ///< on the body, of friction [J]
+  };
+
   /// What obstacles do to the body: a barrier between each pair of parts that are nearer than the width, and friction,
   /// doc/contact.md. It couples nodes of a face alone, which share a cell.
   class ObstacleTerm : public PotentialTerm
@@ -117,6 +125,10 @@ namespace Exemplar
 
     std::size_t
     memory_consumption() const override;
+
+    /// Of each obstacle. All processes must call this.
+    std::vector<ObstacleReport>
+    report() const;
 
     /// The pairs that are nearer than `range` times their width, of the obstacles that are there.
     std::vector<Contact>
