@@ -79,7 +79,7 @@ namespace Exemplar::Testing
       kinetic_energy() const
       {
         const Vector momentum
-            = Verification::mass_times(problem.body.mass, problem.state.velocities);
+            = Verification::mass_times(*problem.actions.mass, problem.state.velocities);
         return 0.5 * (momentum * problem.state.velocities);
       }
 
