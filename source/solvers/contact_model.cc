@@ -10,8 +10,8 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr unsigned int max_rounds        = 4; ///< in which gaps join
-    constexpr unsigned int max_weight_rounds = 3; ///< in one of these
+    constexpr unsigned int max_rounds        = 4;    ///< in which gaps join
+    constexpr unsigned int max_weight_rounds = 3;    ///< in one of these
     constexpr double       joins_below       = 0.2;  ///< widths
     constexpr double       same_weights      = 1e-3; ///< of their greatest change
     constexpr std::size_t  max_rows          = 300;  ///< of a dense problem
@@ -88,12 +88,12 @@ namespace Exemplar
                       const LbfgsCorrection &correction,
                       Direction             &free)
   {
-    const Exchange        &exchange  = potential.get_free_dofs().exchange();
-    const ContactOperators operators = {
-      [&](const std::vector<double> &forces) { return respond(forces); },
-      [&](const std::vector<double> &by_row) { return forces_of(gaps, by_row); },
-      [&](const std::vector<double> &step) { return gaps.changes(displacement(step)); }, exchange
-    };
+    const Exchange        &exchange = potential.get_free_dofs().exchange();
+    const ContactOperators operators
+        = { [&](const std::vector<double> &forces) { return respond(forces); },
+            [&](const std::vector<double> &by_row) { return forces_of(gaps, by_row); },
+            [&](const std::vector<double> &step) { return gaps.changes(displacement(step)); },
+            exchange };
     const bool                 dense = is_dense(gaps);
     dealii::FullMatrix<double> W;
     if (dense)

@@ -14,11 +14,11 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr unsigned int max_iterations = 7;  ///< with one metric in a step
+    constexpr unsigned int max_iterations         = 7;  ///< with one metric in a step
     constexpr unsigned int max_contact_iterations = 14; ///< the same where gaps matter
-    constexpr unsigned int max_metrics    = 2;  ///< that a step may ask for
-    constexpr unsigned int max_changes    = 30; ///< of terms in a step
-    constexpr unsigned int max_halvings   = 5;
+    constexpr unsigned int max_metrics            = 2;  ///< that a step may ask for
+    constexpr unsigned int max_changes            = 30; ///< of terms in a step
+    constexpr unsigned int max_halvings           = 5;
     /// Of a change that the slope promises, where the model of gaps has none.
     constexpr double min_promise           = 1e-3;
     constexpr double max_contraction       = 0.9;
@@ -57,7 +57,7 @@ namespace Exemplar
     potential.begin_step(state, step_size);
     State trial = state;
     trial.time  = time;
-    in_contact = false;
+    in_contact  = false;
     try
     {
       predict(state, step_size, trial, evaluation);
@@ -172,11 +172,10 @@ namespace Exemplar
   bool
   QuasiNewton::is_slow() const
   {
-    const bool         touched    = history.last_in_contact;
-    const unsigned int iterations = touched ? history.contact_iterations
-                                            : history.iterations - history.contact_iterations;
-    const unsigned int n
-        = touched ? history.contact_steps : history.steps - history.contact_steps;
+    const bool         touched = history.last_in_contact;
+    const unsigned int iterations
+        = touched ? history.contact_iterations : history.iterations - history.contact_iterations;
+    const unsigned int n = touched ? history.contact_steps : history.steps - history.contact_steps;
     return n > 0 && history.last_iterations > (metric.cost_in_iterations() + iterations) / n;
   }
 
@@ -383,10 +382,10 @@ namespace Exemplar
       }
       else if (is_near || has_met(parameters.tolerance, report))
         break;
-      old_weights             = trial.weights;
-      const double slope = find_step(trial, evaluation, iteration);
-      const unsigned int most = in_contact ? max_contact_iterations : max_iterations;
-      const bool   is_descent = n_with_metric < most && slope < 0.
+      old_weights                   = trial.weights;
+      const double       slope      = find_step(trial, evaluation, iteration);
+      const unsigned int most       = in_contact ? max_contact_iterations : max_iterations;
+      const bool         is_descent = n_with_metric < most && slope < 0.
                               && take_step(iteration, slope, trial, evaluation, report);
       if (!is_descent)
       {

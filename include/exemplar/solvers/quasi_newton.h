@@ -61,8 +61,8 @@ namespace Exemplar
       unsigned int        steps           = 0;  ///< since then
       unsigned int        iterations      = 0;  ///< in these steps
       unsigned int        last_iterations = 0;  ///< in the last of them
-      unsigned int        contact_steps = 0, contact_iterations = 0; ///< of those in which gaps mattered
-      bool                last_in_contact = false;
+      unsigned int contact_steps = 0, contact_iterations = 0; ///< of those in which gaps mattered
+      bool         last_in_contact = false;
 
       template <typename Archive>
       void
