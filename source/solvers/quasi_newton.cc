@@ -111,7 +111,7 @@ namespace Exemplar
                   metric.rotate_forth(forces);
                 });
     potential.minimize_over_weights(trial, RotationUse::update, evaluation);
-    potential.renew(trial, evaluation);
+    potential.renew(trial, evaluation, false);
   }
 
   void
@@ -371,7 +371,8 @@ namespace Exemplar
     measure(trial, evaluation, iteration);
     for (bool is_near = false;;)
     {
-      if (potential.renew(trial, evaluation) != TermChange::none)
+      const bool is_solved = is_near || has_met(parameters.tolerance, report);
+      if (potential.renew(trial, evaluation, is_solved) != TermChange::none)
       {
         report_iteration(potential, evaluation, trial, report);
         measure(trial, evaluation, iteration);
@@ -380,7 +381,7 @@ namespace Exemplar
         if (has_other_couplings())
           renew_metric(accepted, step_size, trial);
       }
-      else if (is_near || has_met(parameters.tolerance, report))
+      else if (is_solved)
         break;
       old_weights                   = trial.weights;
       const double       slope      = find_step(trial, evaluation, iteration);
