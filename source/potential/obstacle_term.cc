@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/potential/barrier.h>
+#include <exemplar/potential/contact_clearance.h>
 #include <exemplar/potential/nodal_vectors.h>
 #include <exemplar/potential/obstacle_term.h>
 
@@ -16,6 +19,7 @@ namespace Exemplar
                              const Material       &material)
       : obstacles(obstacles), surface(surface), material(material),
         have_friction(obstacles.have_friction()), sums_of(obstacles.all.size()),
+        has_appeared(obstacles.all.size(), 0),
         least_gap(obstacles.width)
   {
     for (const Obstacle &obstacle : obstacles.all)
@@ -138,16 +142,37 @@ namespace Exemplar
     step_size = new_step_size;
     start     = at.positions;
     in_step   = true;
-    there.clear();
-    for (const Obstacle &obstacle : obstacles.all)
-      there.push_back(obstacle.is_there(at.time) ? 1 : 0);
+    follow_times(at);
     rubbing.clear();
+    last_rubbing.clear();
     n_renewals = 0;
     if (!have_friction)
       return;
     at_start = standing;
     for (StandingObstacle &obstacle : at_start)
       obstacle.move_to(at.time);
+  }
+
+  void
+  ObstacleTerm::follow_times(const State &at)
+  {
+    there.clear();
+    for (unsigned int i = 0; i < standing.size(); ++i)
+    {
+      const Obstacle &obstacle = obstacles.all[i];
+      there.push_back(obstacle.is_there(at.time) ? 1 : 0);
+      if (!obstacle.appears() || there[i] == 0 || has_appeared[i] != 0)
+        continue;
+      StandingObstacle now(obstacle);
+      now.move_to(at.time);
+      const Clearance room = clearance(surface, obstacles, now, i, at.positions, obstacles.width,
+                                       free_dofs->exchange());
+      if (room.is_crossed || room.least < obstacles.width)
+        throw SolverFailure("Obstacles/" + obstacle.name() + " appears at t = " + shortest_text(at.time)
+                            + " s where the body is, or nearer to it than the distance from which "
+                              "it pushes. Change its From, or where it is then.");
+      has_appeared[i] = 1;
+    }
   }
 
   std::vector<Rubbing>
@@ -216,13 +241,18 @@ namespace Exemplar
   ObstacleTerm::renew(const TermPoint &at)
   {
     constexpr unsigned int max_renewals = 20;
-    if (!have_friction || !in_step || n_renewals >= max_renewals)
+    if (!have_friction || !in_step || n_renewals > max_renewals)
       return TermChange::none;
-    std::vector<Rubbing> fresh    = rubbing_at(at.positions);
-    auto [greatest, change]       = force_and_change(fresh, rubbing);
-    greatest                      = free_dofs->exchange().max(greatest);
-    change                        = free_dofs->exchange().max(change);
-    if (change <= obstacles.lag_tolerance * greatest)
+    std::vector<Rubbing> fresh             = rubbing_at(at.positions);
+    const auto [own_greatest, own_change]  = force_and_change(fresh, rubbing);
+    const double since_last                = force_and_change(fresh, last_rubbing).second;
+    const Exchange &exchange               = free_dofs->exchange();
+    const double    change                 = exchange.max(own_change);
+    const double    greatest               = exchange.max(own_greatest);
+    // as long as iterations still change them more, normal forces are not yet those of a solution
+    const bool is_settled = n_renewals == 0 || exchange.max(since_last) <= 0.5 * change;
+    last_rubbing          = fresh;
+    if (change <= obstacles.lag_tolerance * greatest || !is_settled)
       return TermChange::none;
     ++n_renewals;
     rubbing = std::move(fresh);
@@ -400,6 +430,25 @@ namespace Exemplar
 
   // What is shown and remembered
 
+  std::vector<ObstacleReport>
+  ObstacleTerm::report() const
+  {
+    std::vector<ObstacleReport> result;
+    for (unsigned int i = 0; i < sums_of.size(); ++i)
+    {
+      const Sums           &own = sums_of[i];
+      std::array<double, 8> all{ { own.force[0], own.force[1], own.force[2], own.torque[0],
+                                   own.torque[1], own.torque[2], own.work, own.heat } };
+      free_dofs->exchange().sum(all.data(), all.size());
+      result.push_back({ obstacles.all[i].name(),
+                         dealii::Point<3>(all[0], all[1], all[2]),
+                         dealii::Point<3>(all[3], all[4], all[5]),
+                         all[6],
+                         all[7] });
+    }
+    return result;
+  }
+
   void
   ObstacleTerm::append_columns(const double /*energy*/,
                                std::vector<std::pair<std::string, double>> &columns) const
@@ -409,21 +458,17 @@ namespace Exemplar
     columns.emplace_back("least_gap", min_of_all(exchange, least_gap));
     columns.emplace_back("contact_pairs", exchange.sum(n_pairs));
     double heat = 0.;
-    for (unsigned int i = 0; i < sums_of.size(); ++i)
+    for (const ObstacleReport &obstacle : report())
     {
-      const Sums             &own = sums_of[i];
-      std::array<double, 8>   all{ { own.force[0], own.force[1], own.force[2], own.torque[0],
-                                     own.torque[1], own.torque[2], own.work, own.heat } };
-      exchange.sum(all.data(), all.size());
-      const std::string name = "contact_" + obstacles.all[i].name();
+      const std::string name = "contact_" + obstacle.name;
       for (unsigned int c = 0; c < 3; ++c)
-        columns.emplace_back(name + "_" + "xyz"[c], all[c]);
+        columns.emplace_back(name + "_" + "xyz"[c], obstacle.force[c]);
       for (unsigned int c = 0; c < 3; ++c)
-        columns.emplace_back(name + "_torque_" + "xyz"[c], all[3 + c]);
-      columns.emplace_back(name + "_work", all[6]);
+        columns.emplace_back(name + "_torque_" + "xyz"[c], obstacle.torque[c]);
+      columns.emplace_back(name + "_work", obstacle.work);
       if (have_friction)
-        columns.emplace_back(name + "_heat", all[7]);
-      heat += all[7];
+        columns.emplace_back(name + "_heat", obstacle.heat);
+      heat += obstacle.heat;
     }
     if (have_friction)
       columns.emplace_back("heat_friction", heat);
@@ -455,13 +500,13 @@ namespace Exemplar
   void
   ObstacleTerm::save(boost::archive::binary_oarchive &archive) const
   {
-    archive << sums_of << barrier_energy << least_gap << n_pairs;
+    archive << has_appeared << sums_of << barrier_energy << least_gap << n_pairs;
   }
 
   void
   ObstacleTerm::load(boost::archive::binary_iarchive &archive)
   {
-    archive >> sums_of >> barrier_energy >> least_gap >> n_pairs;
+    archive >> has_appeared >> sums_of >> barrier_energy >> least_gap >> n_pairs;
   }
 
   std::size_t

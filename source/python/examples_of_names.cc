@@ -69,6 +69,10 @@ array([2. , 0.5, 0.5]))" },
       { "Problem.nodal_forces", R"(>>> forces = np.zeros((45, 3))
 >>> forces[problem.handles["right"], 1] = 2.5
 >>> problem.nodal_forces = forces)" },
+      { "Problem.obstacles", R"(>>> problem.obstacles
+{})" },
+      { "Problem.contact_forces", R"(>>> abs(problem.contact_forces).max()
+0.0)" },
       { "Problem.mass_damping", R"(>>> problem.mass_damping = 0.5)" },
       { "Problem.stiffness_damping", R"(>>> problem.stiffness_damping = 0.01)" },
       { "Problem.hold", R"(>>> problem.hold("middle", np.flatnonzero(problem.rest_positions[:, 0] == 1))

@@ -13,6 +13,7 @@
 #include <exemplar/python/problem_changes.h>
 #include <exemplar/python/problem_gradients.h>
 #include <exemplar/python/problem_live.h>
+#include <exemplar/python/problem_obstacles.h>
 #include <exemplar/python/problem_state.h>
 #include <exemplar/python/problem_type.h>
 #include <exemplar/python/signatures.h>
@@ -284,6 +285,7 @@ namespace Exemplar::Python
       add_state(problem);
       add_saved_states(module, problem);
       add_changes(problem);
+      add_obstacles(problem);
       add_evaluation(problem);
       add_cell_arrays(problem);
       add_body(problem);

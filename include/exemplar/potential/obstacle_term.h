@@ -10,6 +10,14 @@
 
 namespace Exemplar
 {
+  /// What an obstacle did to the body at the end of the last step, and since the beginning.
+  struct ObstacleReport
+  {
+    std::string  name;
+    SpaceVector3 force, torque; ///< on the body [N], [N m]
+    double       work, heat;    ///< on the body, of friction [J]
+  };
+
   /// What obstacles do to the body: a barrier between each pair of parts that are nearer than the width, and friction,
   /// doc/contact.md. It couples nodes of a face alone, which share a cell.
   class ObstacleTerm : public PotentialTerm
@@ -118,6 +126,10 @@ namespace Exemplar
     std::size_t
     memory_consumption() const override;
 
+    /// Of each obstacle. All processes must call this.
+    std::vector<ObstacleReport>
+    report() const;
+
     /// The pairs that are nearer than `range` times their width, of the obstacles that are there.
     std::vector<Contact>
     contacts(const Vector &positions, double range = 1.) const;
@@ -147,6 +159,11 @@ namespace Exemplar
     template <typename Visit>
     void
     visit_blocks(const Vector &positions, Tangent kind, const Visit &visit) const;
+
+    /// Which obstacles are there in the step that begins at this state. Throws SolverFailure for one that appears where
+    /// the body is.
+    void
+    follow_times(const State &at);
 
     /// What would rub at these positions.
     std::vector<Rubbing>
@@ -180,8 +197,10 @@ namespace Exemplar
     bool                          in_step   = false;
     Vector                        start;    ///< positions where the step begins
     std::vector<Rubbing>          rubbing;  ///< since the last renewal
+    std::vector<Rubbing>          last_rubbing; ///< where the last iteration began
     unsigned int                  n_renewals = 0;
     std::vector<Sums>             sums_of;  ///< of this process
+    std::vector<char>             has_appeared; ///< of those with From, whether they have been there
     double                        barrier_energy = 0.; ///< where a step ended
     double                        least_gap;
     double                        n_pairs = 0.;

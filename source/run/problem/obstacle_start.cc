@@ -156,6 +156,32 @@ namespace Exemplar
   } // namespace
 
   void
+  check_obstacle_motions(const Obstacles &obstacles, const Body &body, const TimeAxis &axis)
+  {
+    constexpr unsigned int max_samples = 10000;
+    constexpr double       greatest    = 0.25; // of the diameter
+    for (const Obstacle &obstacle : obstacles.all)
+      for (unsigned int step = 1; step <= std::min(axis.n_steps(), max_samples); ++step)
+      {
+        const double begin = axis.time(step - 1), end = axis.time(step);
+        if (!obstacle.is_there(begin))
+          continue;
+        double               way      = (obstacle.pose(end).place - obstacle.pose(begin).place).norm();
+        const bool           deforms  = obstacle.deforms();
+        const auto           before   = deforms ? obstacle.vertices(begin) : std::vector<SpaceVector3>();
+        const auto           after    = deforms ? obstacle.vertices(end) : before;
+        for (std::size_t v = 0; v < before.size(); ++v)
+          way = std::max(way, (after[v] - before[v]).norm());
+        if (way > greatest * body.mesh.diameter())
+          throw UserError(fmt::format(
+              "Obstacles/{} goes {} m in the step to t = {} s, more than a quarter of the body's "
+              "diameter of {} m. Take smaller steps (Time/Step or Time/Increments), or a slower {}.",
+              obstacle.name(), short_text(way), shortest_text(end),
+              short_text(body.mesh.diameter()), deforms ? "cache" : "Motion"));
+      }
+  }
+
+  void
   suit_obstacles(Obstacles                &obstacles,
                  const ContactSurface     &surface,
                  const Body               &body,

@@ -80,8 +80,11 @@ namespace Exemplar
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation(parameters.initial, examples.poses, state);
     if (actions.obstacles != nullptr)
+    {
+      check_obstacle_motions(*actions.obstacles, body, time_axis);
       suit_obstacles(*actions.obstacles, *actions.contact_surface, body, state.positions,
                      actions.notes);
+    }
     state.history = potential.get_cells().get_field().get_batches().history();
     start(state);
     check_start(*this);

@@ -6,6 +6,10 @@
 
 namespace Exemplar
 {
+  /// Throws UserError for an obstacle that goes more than a quarter of the body's diameter in a step.
+  void
+  check_obstacle_motions(const Obstacles &obstacles, const Body &body, const TimeAxis &axis);
+
   /// Let the obstacles suit a body that begins at these positions: what touches it is set back, of which `notes` tell,
   /// and pairs that begin nearer than the distance from which obstacles push keep their own. Throws UserError for a body
   /// that begins inside of one. All processes must call this.
