@@ -90,15 +90,16 @@ namespace Exemplar
                                              : WeightStep{ start.weights, {} });
     for (const auto &term : terms)
       term->begin_step(start, step_size);
-    renew_terms(start);
+    renew_terms(start, true);
   }
 
   TermChange
-  IncrementalPotential::renew_terms(const State &at)
+  IncrementalPotential::renew_terms(const State &at, const bool with_gaps)
   {
     TermChange change = TermChange::none;
     for (const auto &term : terms)
-      change = std::max(change, term->renew({ at.positions, at.weights }));
+      if (with_gaps || term->gap_width() == 0.)
+        change = std::max(change, term->renew({ at.positions, at.weights }));
     change = static_cast<TermChange>(
         std::lround(free_dofs.exchange().max(static_cast<double>(change))));
     if (change == TermChange::couplings)
@@ -107,9 +108,9 @@ namespace Exemplar
   }
 
   TermChange
-  IncrementalPotential::renew(const State &at, Evaluation &evaluation)
+  IncrementalPotential::renew(const State &at, Evaluation &evaluation, const bool is_solved)
   {
-    const TermChange change = renew_terms(at);
+    const TermChange change = renew_terms(at, is_solved);
     if (change != TermChange::none)
       add_terms(at.positions, evaluation);
     return change;

@@ -138,6 +138,7 @@ namespace Exemplar
   void
   ObstacleTerm::begin_step(const State &at, const double new_step_size)
   {
+    move_to(at.time);
     step_size = new_step_size;
     start     = at.positions;
     in_step   = true;

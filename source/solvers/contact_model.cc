@@ -10,8 +10,8 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr unsigned int max_rounds        = 4; ///< in which gaps join and weights follow
-    constexpr unsigned int max_weight_rounds = 3;
+    constexpr unsigned int max_rounds        = 4;    ///< in which gaps join
+    constexpr unsigned int max_weight_rounds = 3;    ///< in one of these
     constexpr double       joins_below       = 0.2;  ///< widths
     constexpr double       same_weights      = 1e-3; ///< of their greatest change
     constexpr std::size_t  max_rows          = 300;  ///< of a dense problem
@@ -75,68 +75,96 @@ namespace Exemplar
     return forces;
   }
 
-  ContactModel::Touching
-  ContactModel::minimize_densely(const GapEnergies &gaps, const Direction &free)
+  bool
+  ContactModel::is_dense(const GapEnergies &gaps)
   {
-    const LbfgsCorrection correction
-        = lbfgs.correction([this](std::vector<double> &vector) { metric.apply(vector); });
-    const dealii::FullMatrix<double> W     = columns.between_rows(gaps, correction);
-    const ContactForces              found = minimize_with_contact(
-                     gaps, W, gaps.changes(displacement(free.step)), dot(free.forces, free.step));
-    Touching touching;
-    touching.forces = forces_of(gaps, found.forces);
-    touching.step   = respond(touching.forces);
-    add(touching.step, found.part, free.step);
-    return touching;
+    return potential.get_free_dofs().exchange().n_processes() == 1 && gaps.n_rows() <= max_rows
+           && columns.has_entries();
   }
 
   ContactModel::Touching
-  ContactModel::minimize_by_gradients(const GapEnergies &gaps, const Direction &free)
+  ContactModel::touch(const GapEnergies     &gaps,
+                      const WeightsThere    &weights,
+                      const LbfgsCorrection &correction,
+                      Direction             &free)
   {
+    const Exchange        &exchange = potential.get_free_dofs().exchange();
     const ContactOperators operators
         = { [&](const std::vector<double> &forces) { return respond(forces); },
             [&](const std::vector<double> &by_row) { return forces_of(gaps, by_row); },
             [&](const std::vector<double> &step) { return gaps.changes(displacement(step)); },
-            potential.get_free_dofs().exchange() };
-    const ContactStep   found  = minimize_with_contact(gaps, operators, free.forces);
-    std::vector<double> by_row = gaps.slopes(found.changes);
-    for (double &force : by_row)
-      force = -force;
-    return { found.step, forces_of(gaps, by_row) };
-  }
-
-  ContactModel::Touching
-  ContactModel::minimize(const GapEnergies &gaps, const Direction &free)
-  {
-    const Exchange &exchange = potential.get_free_dofs().exchange();
-    if (!exchange.any(gaps.n_rows() > 0))
-      return { free.step, std::vector<double>(free.step.size()) };
-    if (exchange.n_processes() == 1 && gaps.n_rows() <= max_rows && columns.has_entries())
-      return minimize_densely(gaps, free);
-    return minimize_by_gradients(gaps, free);
+            exchange };
+    const bool                 dense = is_dense(gaps);
+    dealii::FullMatrix<double> W;
+    if (dense)
+      W = columns.between_rows(gaps, correction);
+    for (unsigned int round = 1;; ++round)
+    {
+      Touching            touching;
+      std::vector<double> by_row;
+      double              part = 1.;
+      if (dense)
+      {
+        ContactForces found = minimize_with_contact(gaps, W, operators.changes(free.step),
+                                                    dot(free.forces, free.step));
+        by_row              = std::move(found.forces);
+        part                = found.part;
+      }
+      else
+      {
+        ContactStep found = minimize_with_contact(gaps, operators, free.forces);
+        by_row            = gaps.slopes(found.changes);
+        for (double &force : by_row)
+          force = -force;
+        touching.step = std::move(found.step);
+      }
+      touching.forces = operators.forces(by_row);
+      if (round < max_weight_rounds && find_weights(weights, touching.forces, correction, free))
+        continue;
+      if (dense)
+      {
+        touching.step = respond(touching.forces);
+        add(touching.step, part, free.step);
+      }
+      return touching;
+    }
   }
 
   bool
   ContactModel::find_weights(const WeightsThere        &weights,
                              const std::vector<double> &forces_of_contact,
-                             Direction                 &free)
+                             const LbfgsCorrection     &correction,
+                             Direction                 &free) const
   {
-    std::vector<double> body = free.forces, opposite = free.weight_changes;
-    for (double &change : opposite)
-      change = -change;
-    metric.add_example_forces(opposite, body);
-    std::vector<double> all = body;
-    add(all, 1., forces_of_contact);
-    std::vector<double> changes = metric.find_weight_changes(all, weights.gradient, weights.limits);
-    double              difference = 0.;
-    for (std::size_t i = 0; i < changes.size(); ++i)
-      difference = std::max(difference, std::abs(changes[i] - free.weight_changes[i]));
-    if (difference <= same_weights * max_entry(changes))
+    if (free.weight_changes.empty())
       return false;
-    free.forces = std::move(body);
-    metric.add_example_forces(changes, free.forces);
-    free.weight_changes = std::move(changes);
-    free.step           = respond(free.forces);
+    std::vector<double> difference = free.weight_changes, forces = free.forces;
+    for (double &change : difference)
+      change = -change;
+    metric.add_example_forces(difference, forces);
+    add(forces, 1., forces_of_contact);
+    const std::vector<double> changes
+        = metric.find_weight_changes(forces, weights.gradient, weights.limits);
+    add(difference, 1., changes);
+    if (max_entry(difference) <= same_weights * max_entry(changes))
+      return false;
+    std::vector<double> more(free.forces.size());
+    metric.add_example_forces(difference, more);
+    add(free.forces, 1., more);
+    metric.add_example_responses(difference, free.step);
+    const std::size_t   k = correction.columns.size();
+    std::vector<double> along(k);
+    for (std::size_t i = 0; i < k; ++i)
+      along[i] = dot(more, *correction.columns[i]);
+    potential.get_free_dofs().exchange().sum(along);
+    for (std::size_t i = 0; i < k; ++i)
+    {
+      double factor = 0.;
+      for (std::size_t j = 0; j < k; ++j)
+        factor += correction.matrix(i, j) * along[j];
+      add(free.step, factor, *correction.columns[i]);
+    }
+    free.weight_changes = changes;
     return true;
   }
 
@@ -187,16 +215,14 @@ namespace Exemplar
                      { return gaps[g].distance < gaps[g].width || gaps[g].friction > 0.; });
     if (!touches && !take_what_comes_near())
       return nullptr;
-    Direction &free = direction;
-    Touching   touching;
+    const LbfgsCorrection correction
+        = lbfgs.correction([this](std::vector<double> &vector) { metric.apply(vector); });
+    Touching touching;
     for (unsigned int round = 1;; ++round)
     {
-      touching     = minimize(GapEnergies(taken), free);
-      moved        = displacement(touching.step);
-      bool goes_on = round < max_rounds && take_what_comes_near();
-      if (round < max_weight_rounds && find_weights(weights, touching.forces, free))
-        goes_on = true;
-      if (!goes_on)
+      touching = touch(GapEnergies(taken), weights, correction, direction);
+      moved    = displacement(touching.step);
+      if (round == max_rounds || !take_what_comes_near())
         break;
     }
     direction.step              = std::move(touching.step);

@@ -72,7 +72,7 @@ namespace Exemplar
       static constexpr unsigned int max_iterations = 100;
       static constexpr unsigned int max_halvings   = 20;
       static constexpr double       tolerance
-          = 1e-4; ///< of the change of forces; their error is its square
+          = 1e-5; ///< of the change of forces; their error is its square
       static constexpr double max_slope = 0.1; ///< that a line search leaves of the first
 
       /// To where the function with B as a quadratic one has its minimum. With S S = B'' and e the change of the

@@ -206,7 +206,9 @@ namespace Exemplar
       go_on_with_same_factor(trial.state, evaluation);
     for (unsigned int iteration = 0;; ++iteration)
     {
-      const bool is_same = potential.renew(trial.state, evaluation) == TermChange::none;
+      const bool is_solved = potential.gap_width() > 0.
+                             && has_residual(parameters.tolerance, trial.state, evaluation);
+      const bool is_same = potential.renew(trial.state, evaluation, is_solved) == TermChange::none;
       const bool goes_on = report_iteration(potential, evaluation, trial.state, report);
       const bool is_met  = is_same && has_met(parameters.tolerance, report);
       if (is_met && (iteration == max_iterations || is_placed(trial.state, evaluation)))

@@ -14,10 +14,11 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr unsigned int max_iterations = 7;  ///< with one metric in a step
-    constexpr unsigned int max_metrics    = 2;  ///< that a step may ask for
-    constexpr unsigned int max_changes    = 30; ///< of terms in a step
-    constexpr unsigned int max_halvings   = 5;
+    constexpr unsigned int max_iterations         = 7;  ///< with one metric in a step
+    constexpr unsigned int max_contact_iterations = 14; ///< the same where gaps matter
+    constexpr unsigned int max_metrics            = 2;  ///< that a step may ask for
+    constexpr unsigned int max_changes            = 30; ///< of terms in a step
+    constexpr unsigned int max_halvings           = 5;
     /// Of a change that the slope promises, where the model of gaps has none.
     constexpr double min_promise           = 1e-3;
     constexpr double max_contraction       = 0.9;
@@ -56,6 +57,7 @@ namespace Exemplar
     potential.begin_step(state, step_size);
     State trial = state;
     trial.time  = time;
+    in_contact  = false;
     try
     {
       predict(state, step_size, trial, evaluation);
@@ -68,10 +70,7 @@ namespace Exemplar
     {
       report.failure = failure.what();
     }
-    ++history.steps;
-    ++next.steps;
-    history.iterations += report.iterations;
-    history.last_iterations = report.iterations;
+    count_step(report);
     if (report.status == SolveStatus::converged)
     {
       std::swap(state, trial);
@@ -112,7 +111,7 @@ namespace Exemplar
                   metric.rotate_forth(forces);
                 });
     potential.minimize_over_weights(trial, RotationUse::update, evaluation);
-    potential.renew(trial, evaluation);
+    potential.renew(trial, evaluation, false);
   }
 
   void
@@ -157,7 +156,10 @@ namespace Exemplar
              potential.mass_factor(),
              0,
              0,
-             0 };
+             0,
+             0,
+             0,
+             false };
   }
 
   bool
@@ -167,15 +169,34 @@ namespace Exemplar
         history.couplings != potential.get_tangent().couplings_of_terms());
   }
 
+  bool
+  QuasiNewton::is_slow() const
+  {
+    const bool         touched = history.last_in_contact;
+    const unsigned int iterations
+        = touched ? history.contact_iterations : history.iterations - history.contact_iterations;
+    const unsigned int n = touched ? history.contact_steps : history.steps - history.contact_steps;
+    return n > 0 && history.last_iterations > (metric.cost_in_iterations() + iterations) / n;
+  }
+
+  void
+  QuasiNewton::count_step(const SolveReport &report)
+  {
+    ++history.steps;
+    ++next.steps;
+    history.iterations += report.iterations;
+    history.last_iterations = report.iterations;
+    history.last_in_contact = in_contact;
+    if (in_contact)
+    {
+      ++history.contact_steps;
+      history.contact_iterations += report.iterations;
+    }
+  }
+
   void
   QuasiNewton::find_metric(const State &start, const double step_size, const State &trial)
   {
-    const auto is_slow = [this]
-    {
-      return history.steps > 0
-             && history.last_iterations
-                    > (metric.cost_in_iterations() + history.iterations) / history.steps;
-    };
     if (next.mass_factor != potential.mass_factor())
       next = {};
     // where Newton's method has taken over, there is no metric, but steps since it was made
@@ -233,6 +254,7 @@ namespace Exemplar
       direction.weight_changes = std::move(changes);
       iteration.gaps = contact.add_contact(trial.positions, { weight_gradient, limits }, direction);
       step           = std::move(direction.step);
+      in_contact |= iteration.gaps != nullptr;
     }
     iteration.direct = step;
     metric.rotate_forth(iteration.direct);
@@ -349,7 +371,8 @@ namespace Exemplar
     measure(trial, evaluation, iteration);
     for (bool is_near = false;;)
     {
-      if (potential.renew(trial, evaluation) != TermChange::none)
+      const bool is_solved = is_near || has_met(parameters.tolerance, report);
+      if (potential.renew(trial, evaluation, is_solved) != TermChange::none)
       {
         report_iteration(potential, evaluation, trial, report);
         measure(trial, evaluation, iteration);
@@ -358,17 +381,18 @@ namespace Exemplar
         if (has_other_couplings())
           renew_metric(accepted, step_size, trial);
       }
-      else if (is_near || has_met(parameters.tolerance, report))
+      else if (is_solved)
         break;
-      old_weights             = trial.weights;
-      const double slope      = find_step(trial, evaluation, iteration);
-      const bool   is_descent = n_with_metric < max_iterations && slope < 0.
+      old_weights                   = trial.weights;
+      const double       slope      = find_step(trial, evaluation, iteration);
+      const unsigned int most       = in_contact ? max_contact_iterations : max_iterations;
+      const bool         is_descent = n_with_metric < most && slope < 0.
                               && take_step(iteration, slope, trial, evaluation, report);
       if (!is_descent)
       {
         if (++n_metrics > max_metrics)
           return;
-        if (n_with_metric < max_iterations) // the line search gave up, and went back
+        if (n_with_metric < most) // the line search gave up, and went back
         {
           StepClock::Scope scope(clock, Phase::evaluate);
           potential.minimize_over_weights(trial, RotationUse::update, evaluation);

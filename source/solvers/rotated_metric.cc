@@ -111,6 +111,16 @@ namespace Exemplar
         add(forces, weight, &G[j * n]);
   }
 
+  void
+  RotatedMetric::add_example_responses(const std::vector<double> &weights,
+                                       std::vector<double>       &step) const
+  {
+    const std::size_t n = step.size();
+    for (std::size_t j = 0; j < form->coupled.size(); ++j)
+      if (const double weight = weights[form->coupled[j]]; weight != 0.)
+        add(step, weight, &Z[j * n]);
+  }
+
   std::size_t
   RotatedMetric::memory_consumption() const
   {

@@ -72,9 +72,10 @@ namespace Exemplar
     begin_step(const State &start, double step_size);
 
     /// An iteration begins at this state, of which the evaluation must be: terms may change, PotentialTerm::renew().
-    /// Where they do, pattern and evaluation follow. All processes must call this.
+    /// those with gaps only if the step is solved but for such changes. Where they do, pattern and evaluation follow. All
+    /// processes must call this.
     TermChange
-    renew(const State &at, Evaluation &evaluation);
+    renew(const State &at, Evaluation &evaluation, bool is_solved);
 
     /// The step that has begun is accepted, with this end, of which the rotations are. It gets what
     /// the laws remember, and what the step has dissipated.
@@ -238,7 +239,7 @@ namespace Exemplar
   private:
     /// Let terms and pattern follow to where an iteration begins.
     TermChange
-    renew_terms(const State &at);
+    renew_terms(const State &at, bool with_gaps);
 
     PotentialTerms   terms;
     ElasticPotential cells;

@@ -101,7 +101,8 @@ namespace Exemplar
 
     /// An iteration begins here: the term may couple other nodes, as contact does, or renew what it has lagged, as
     /// friction does. Pattern and evaluation then follow before the step goes on, and no step ends with a change. It
-    /// must find the same at the same point and step, whatever was evaluated before.
+    /// must find the same at the same point and step, whatever was evaluated before. Terms with gaps are asked at the step's start and where
+    /// the solver is done with what they have lagged: forces of contact are far from the end's until then.
     virtual TermChange
     renew(const TermPoint & /*at*/)
     {

@@ -97,20 +97,23 @@ namespace Exemplar
       std::vector<double> step, forces;
     };
 
+    /// With these gaps, and with the weights that follow them, which change `free`.
     Touching
-    minimize(const GapEnergies &gaps, const Direction &free);
-
-    Touching
-    minimize_densely(const GapEnergies &gaps, const Direction &free);
-
-    Touching
-    minimize_by_gradients(const GapEnergies &gaps, const Direction &free);
+    touch(const GapEnergies     &gaps,
+          const WeightsThere    &weights,
+          const LbfgsCorrection &correction,
+          Direction             &free);
 
     /// Let the weights follow forces of contact; false if they stay.
     bool
     find_weights(const WeightsThere        &weights,
                  const std::vector<double> &forces_of_contact,
-                 Direction                 &free);
+                 const LbfgsCorrection     &correction,
+                 Direction                 &free) const;
+
+    /// Whether a dense problem is the way to take.
+    bool
+    is_dense(const GapEnergies &gaps);
 
     const IncrementalPotential &potential;
     RotatedMetric              &metric;

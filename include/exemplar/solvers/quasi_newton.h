@@ -61,13 +61,15 @@ namespace Exemplar
       unsigned int        steps           = 0;  ///< since then
       unsigned int        iterations      = 0;  ///< in these steps
       unsigned int        last_iterations = 0;  ///< in the last of them
+      unsigned int contact_steps = 0, contact_iterations = 0; ///< of those in which gaps mattered
+      bool         last_in_contact = false;
 
       template <typename Archive>
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
         archive &positions &weights &couplings &start &step_size &mass_factor &steps &iterations
-            &last_iterations;
+            &last_iterations &contact_steps &contact_iterations &last_in_contact;
       }
     };
 
@@ -118,6 +120,15 @@ namespace Exemplar
 
     void
     take_next_metric();
+
+    /// Whether the last step took more iterations than steps like it since the metric was made, its cost included. Contact
+    /// takes iterations that another metric would not save.
+    bool
+    is_slow() const;
+
+    /// A step has ended, or the part of one that the metric was good for.
+    void
+    count_step(const SolveReport &report);
 
     /// Have a metric for this step: the last, or a new one if that has become slow.
     void
@@ -184,6 +195,7 @@ namespace Exemplar
     Lbfgs                  lbfgs; ///< in the frame of the metric
     ContactModel           contact;
     MetricHistory          history;
+    bool                   in_contact = false; ///< whether gaps have mattered in this step
     MetricHistory          next; ///< of the metric that a thread makes; without positions: none
     std::vector<float>     next_rotations; ///< of the nodes where it was assembled
   };

@@ -67,6 +67,10 @@ namespace Exemplar
     void
     add_example_forces(const std::vector<double> &weights, std::vector<double> &forces) const;
 
+    /// Add the displacements Z w that these forces cause.
+    void
+    add_example_responses(const std::vector<double> &weights, std::vector<double> &step) const;
+
     /// Overwrite forces by the displacement that they cause at fixed weights, both in the
     /// frame of the kept inverse.
     void

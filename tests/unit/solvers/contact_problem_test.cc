@@ -111,6 +111,12 @@ namespace Exemplar::Testing
         return result;
       }
 
+      double
+      greatest_force(const std::vector<double> &u) const
+      {
+        return std::max(max_entry(r), max_entry(rows->slopes(changes(u))));
+      }
+
       std::vector<double>
       solve_in_forces(unsigned int &iterations) const
       {
@@ -187,12 +193,12 @@ namespace Exemplar::Testing
           const SmallContact        body(6, 8, friction, push);
           unsigned int              iterations = 0;
           const std::vector<double> u          = body.solve_in_forces(iterations);
-          EXPECT_LT(max_entry(body.gradient(u)), 1e-5 * max_entry(body.r));
+          EXPECT_LT(max_entry(body.gradient(u)), 1e-6 * body.greatest_force(u));
           EXPECT_LE(iterations, 40u);
-          EXPECT_LT(body.energy(u), 0.);
-          const std::vector<double> same = body.solve_by_gradients();
-          for (std::size_t i = 0; i < u.size(); ++i)
-            EXPECT_NEAR(same[i], u[i], 2e-2 * max_entry(u));
+          const double least        = body.energy(u),
+                       of_gradients = body.energy(body.solve_by_gradients());
+          EXPECT_LT(least, body.energy(std::vector<double>(u.size())));
+          EXPECT_NEAR(of_gradients, least, 1e-3 * std::abs(least));
         }
     }
 
@@ -203,7 +209,7 @@ namespace Exemplar::Testing
       EXPECT_EQ(rank(W, 1e-9), 6u);
       unsigned int              iterations = 0;
       const std::vector<double> u          = body.solve_in_forces(iterations);
-      EXPECT_LT(max_entry(body.gradient(u)), 1e-5 * max_entry(body.r));
+      EXPECT_LT(max_entry(body.gradient(u)), 1e-6 * body.greatest_force(u));
       EXPECT_LE(iterations, 40u);
     }
   } // namespace

@@ -79,7 +79,7 @@ namespace Exemplar::Testing
       kinetic_energy() const
       {
         const Vector momentum
-            = Verification::mass_times(problem.body.mass, problem.state.velocities);
+            = Verification::mass_times(*problem.actions.mass, problem.state.velocities);
         return 0.5 * (momentum * problem.state.velocities);
       }
 
@@ -167,6 +167,19 @@ namespace Exemplar::Testing
       }
     }
 
+    TEST(ContactSteps, FrictionTakesFewMore)
+    {
+      const std::string text = thrown_bar("1; 0; -3+0.5*(x-2)", 1e6, 0.01);
+      for (const double friction : { 0., 0.1, 0.5 })
+        for (const std::string method : { "quasi newton", "newton" })
+        {
+          WalledScene scene(text, floor_at(-0.55, 1e6, friction), { "Solver/Method=" + method });
+          const auto  course = scene.run();
+          print(fmt::format("{}, friction {}", method, friction), course);
+          EXPECT_EQ(course.steps, 40u);
+        }
+    }
+
     TEST(ContactSteps, ExamplesFollowForcesOfContact)
     {
       const std::string text
@@ -200,6 +213,7 @@ namespace Exemplar::Testing
       WalledScene       lies(text, floor_at(-0.505, 1e6)), flies(text, floor_at(-100., 1e6));
       const auto        metric_of = [](Problem &problem)
       {
+        problem.potential.begin_step(problem.state, 0.01);
         problem.system.factorize_metric(problem.state.positions, problem.state.weights);
         return problem.system.bordered().matrix_values();
       };
@@ -210,7 +224,7 @@ namespace Exemplar::Testing
 
     TEST(ContactSteps, AResumedRunGoesOnInTheSameBytes)
     {
-      const std::string text = thrown_bar("1; 0; -3+2*(x-2)", 1e6, 0.005);
+      const std::string text  = thrown_bar("1; 0; -3+2*(x-2)", 1e6, 0.005);
       const WallRules   rules = floor_at(-0.55, 1e6, 0.2);
       WalledScene       whole(text, rules), first(text, rules), second(text, rules);
       whole.run(30);
