@@ -144,7 +144,6 @@ namespace Exemplar
     in_step   = true;
     follow_times(at);
     rubbing.clear();
-    last_rubbing.clear();
     n_renewals = 0;
     if (!have_friction)
       return;
@@ -243,16 +242,11 @@ namespace Exemplar
     constexpr unsigned int max_renewals = 20;
     if (!have_friction || !in_step || n_renewals > max_renewals)
       return TermChange::none;
-    std::vector<Rubbing> fresh             = rubbing_at(at.positions);
-    const auto [own_greatest, own_change]  = force_and_change(fresh, rubbing);
-    const double since_last                = force_and_change(fresh, last_rubbing).second;
-    const Exchange &exchange               = free_dofs->exchange();
-    const double    change                 = exchange.max(own_change);
-    const double    greatest               = exchange.max(own_greatest);
-    // as long as iterations still change them more, normal forces are not yet those of a solution
-    const bool is_settled = n_renewals == 0 || exchange.max(since_last) <= 0.5 * change;
-    last_rubbing          = fresh;
-    if (change <= obstacles.lag_tolerance * greatest || !is_settled)
+    std::vector<Rubbing> fresh            = rubbing_at(at.positions);
+    const auto [own_greatest, own_change] = force_and_change(fresh, rubbing);
+    const double greatest                 = free_dofs->exchange().max(own_greatest);
+    const double change                   = free_dofs->exchange().max(own_change);
+    if (change <= obstacles.lag_tolerance * greatest)
       return TermChange::none;
     ++n_renewals;
     rubbing = std::move(fresh);

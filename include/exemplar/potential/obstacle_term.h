@@ -197,7 +197,6 @@ namespace Exemplar
     bool                          in_step   = false;
     Vector                        start;    ///< positions where the step begins
     std::vector<Rubbing>          rubbing;  ///< since the last renewal
-    std::vector<Rubbing>          last_rubbing; ///< where the last iteration began
     unsigned int                  n_renewals = 0;
     std::vector<Sums>             sums_of;  ///< of this process
     std::vector<char>             has_appeared; ///< of those with From, whether they have been there
