@@ -169,6 +169,10 @@ True)" },
 [...])" },
       { "Problem.warnings", R"(>>> problem.warnings
 [])" },
+      { "Problem.obstacles", R"(>>> problem.obstacles
+{})" },
+      { "Problem.contact_forces", R"(>>> abs(problem.contact_forces).max()
+0.0)" },
       { "Problem.plot", R"(>>> axes = problem.plot(problem.det_F))" },
       { "Problem.animate", R"(>>> player = problem.animate()
 >>> player.save("body.gif"))" },

@@ -275,6 +275,7 @@ namespace Exemplar::Python
       add_state(problem);
       add_saved_states(module, problem);
       add_changes(problem);
+      add_obstacles(problem);
       add_evaluation(problem);
       add_cell_arrays(problem);
       add_body(problem);

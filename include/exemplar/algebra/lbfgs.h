@@ -4,12 +4,23 @@
 
 #include <exemplar/algebra/exchange.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <vector>
 
 namespace Exemplar
 {
+  /// What the pairs of Lbfgs add to an inverse: columns B and a small symmetric matrix M, B M B^T.
+  struct LbfgsCorrection
+  {
+    std::vector<const std::vector<double> *>
+                               columns; ///< of the Lbfgs, as long as it does not change
+    dealii::FullMatrix<double> matrix;
+  };
+
   /// The memory of a quasi-Newton method: pairs of steps s and gradient changes y along them, which
   /// correct an approximate inverse of the Hessian (Nocedal and Wright, Algorithm 7.4).
   class Lbfgs
@@ -37,7 +48,8 @@ namespace Exemplar
     {
       std::size_t bytes = 0;
       for (const Pair &pair : pairs)
-        bytes += sizeof(double) * (pair.s.capacity() + pair.y.capacity());
+        bytes
+            += sizeof(double) * (pair.s.capacity() + pair.y.capacity() + pair.inverse_y.capacity());
       return bytes;
     }
 
@@ -70,6 +82,11 @@ namespace Exemplar
     void
     after(std::vector<double> &vector) const;
 
+    /// The correction as a whole (Byrd, Nocedal and Schnabel, Math. Program. 63, 1994, Theorem 2.2): H = H0 + B M B^T with
+    /// B = [S, H0 Y], where `apply` overwrites a vector by H0 times it, the same one until clear().
+    LbfgsCorrection
+    correction(const std::function<void(std::vector<double> &)> &apply);
+
   private:
     /// A step s and the change y of the gradient along it.
     struct Pair
@@ -77,6 +94,7 @@ namespace Exemplar
       std::vector<double> s, y;
       double              rho   = 0.; ///< 1 / s.y
       double              alpha = 0.; ///< rho s.vector, of before()
+      std::vector<double> inverse_y{}; ///< H0 y, if correction() has wanted it
 
       template <typename Archive>
       void

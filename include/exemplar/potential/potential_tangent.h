@@ -60,6 +60,13 @@ namespace Exemplar
     void
     attach(PotentialTerm &term);
 
+    /// Which terms to take: those with gaps stay out of inverses that are kept, PotentialTerm::gap_width().
+    enum class Terms
+    {
+      all,
+      without_gaps
+    };
+
     /// A and G: exact for convexity 0, convex for 1, a mixture between. There must be `products`, which
     /// A is the sum of the values and, where the pattern is without them.
     void
@@ -68,7 +75,8 @@ namespace Exemplar
              double                     convexity,
              std::vector<double>       &matrix_values,
              std::vector<double>       &columns,
-             OuterProducts             *products = nullptr);
+             OuterProducts             *products = nullptr,
+             Terms                      which    = Terms::all);
 
   private:
     /// Make the pattern of body and terms as they are.
@@ -82,7 +90,8 @@ namespace Exemplar
                  const std::vector<double> &weights,
                  std::vector<double>       &values,
                  std::vector<double>       &columns,
-                 OuterProducts             *products);
+                 OuterProducts             *products,
+                 Terms                      which);
 
     ElasticBody          &body;
     const FreeDofs       &free_dofs;

@@ -17,6 +17,10 @@ namespace Exemplar::Python
   void
   add_changes(ProblemClass &problem);
 
+  /// Adds to exemplar.Problem what obstacles do to the body.
+  void
+  add_obstacles(ProblemClass &problem);
+
   /// Adds to exemplar.Problem the arrays of the state in its cells.
   void
   add_cell_arrays(ProblemClass &problem);

@@ -49,7 +49,7 @@ namespace Exemplar
     for (const auto &term : problem.potential.get_terms())
       term->append_fields(state.positions, frame.fields);
     for (NodalField &field : frame.fields)
-      problem.body.exchange().assemble(field.values.begin(), 3);
+      problem.body.exchange().assemble(field.values.begin(), field.n_components);
     return frame;
   }
 

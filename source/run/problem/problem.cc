@@ -5,6 +5,7 @@
 #include <exemplar/run/problem/example_starts.h>
 #include <exemplar/run/problem/finiteness.h>
 #include <exemplar/run/problem/initial_state.h>
+#include <exemplar/run/problem/obstacle_start.h>
 #include <exemplar/run/problem/problem.h>
 
 #include <fmt/core.h>
@@ -80,6 +81,12 @@ namespace Exemplar
     }
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation(parameters.initial, examples.poses, state);
+    if (actions.obstacles != nullptr)
+    {
+      check_obstacle_motions(*actions.obstacles, body, time_axis);
+      suit_obstacles(*actions.obstacles, *actions.contact_surface, body, state.positions,
+                     actions.notes);
+    }
     state.history = cells.get_field().get_batches().history();
     start(state);
     check_start(*this);
