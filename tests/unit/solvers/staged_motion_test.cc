@@ -55,7 +55,7 @@ namespace Exemplar::Testing
         problem.potential.set_time(1., end);
         problem.constraints.handles.move(1., end.positions);
         problem.system.factorize_metric(state.positions, state.weights);
-        const StagedMotion motion(problem.potential, problem.constraints.handles);
+        StagedMotion motion(problem.potential, problem.constraints.handles);
         const unsigned int n = motion.move(0., state.positions, 1., end.positions,
                                            [&](std::vector<double> &forces)
                                            { problem.system.bordered().apply_inverse(forces); });
