@@ -20,6 +20,7 @@ namespace Exemplar
     newest.s.swap(s);
     newest.y.swap(y);
     newest.rho = 1. / curvature;
+    newest.inverse_y.clear();
   }
 
   void

@@ -288,7 +288,7 @@ namespace Exemplar
     const Merit                before(potential, evaluation);
     double                    &length = report.step_length;
     report.newton_decrement           = -0.5 * slope;
-    memory.displacement               = 0.;
+    memory.displacement.reinit(trial.positions.size());
     free_dofs.add(1., step, memory.displacement);
     length = std::min(1., potential.max_step(trial.positions, memory.displacement));
     free_dofs.add(length, step, trial.positions);

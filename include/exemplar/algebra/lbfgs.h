@@ -94,7 +94,7 @@ namespace Exemplar
       std::vector<double> s, y;
       double              rho   = 0.; ///< 1 / s.y
       double              alpha = 0.; ///< rho s.vector, of before()
-      std::vector<double> inverse_y{}; ///< H0 y, if correction() has wanted it
+      std::vector<double> inverse_y;  ///< H0 y, if correction() has wanted it; else empty
 
       template <typename Archive>
       void
