@@ -90,6 +90,7 @@ namespace Exemplar::Testing
       const auto          n      = static_cast<long>(n_allocations - before);
       EXPECT_EQ(report.factorizations, 0u); // a new factor needs new memory
       EXPECT_GT(report.iterations, 0u);
+      EXPECT_GT(n, 0); // the history: it is counted
       long n_of_history = 0;
       for (std::size_t capacity = 0; capacity < report.residual_history.size();
            capacity             = std::max<std::size_t>(1, 2 * capacity))
