@@ -30,7 +30,7 @@ namespace Exemplar::Live
     struct Arguments
     {
       std::string              record;
-      std::optional<double>    floor; ///< where it is along gravity's axis [m]
+      std::optional<double>    floor;                   ///< where it is along gravity's axis [m]
       std::vector<std::string> shown, overrides, hosts; ///< shown: a scene, or outputs of runs
       ListenAt                 place;
       unsigned int             n_threads        = 1;
@@ -72,7 +72,8 @@ Exit status:
       app.add_option("--record", arguments.record,
                      "directory in which the session is kept as a scene that plays it again");
       app.add_option("--floor", arguments.floor,
-                     "a floor at this coordinate [m] along the axis of gravity, z without any; its friction is 0.5");
+                     "a floor at this coordinate [m] along the axis of gravity, z without any; its "
+                     "friction is 0.5");
       app.add_option("--threads", arguments.n_threads, "threads of the solver")
           ->check(CLI::Range(1, 1024))
           ->capture_default_str();
@@ -102,25 +103,28 @@ Exit status:
 
     /// Overrides, and what makes a floor at this coordinate among a scene's obstacles. Throws UserError as SceneFile.
     std::vector<std::string>
-    with_floor(std::vector<std::string> overrides, const std::string &scene_file, const double place)
+    with_floor(std::vector<std::string> overrides,
+               const std::string       &scene_file,
+               const double             place)
     {
       const SceneFile              scene(scene_file, overrides);
       const std::array<double, 3> &gravity = scene.get_parameters().loads.gravity;
       const auto                   steep   = std::max_element(gravity.begin(), gravity.end(),
                                                               [](const double a, const double b)
                                                               { return std::abs(a) < std::abs(b); });
-      const std::size_t axis = *steep == 0. ? 2 : steep - gravity.begin();
-      std::string       names;
+      const std::size_t            axis    = *steep == 0. ? 2 : steep - gravity.begin();
+      std::string                  names;
       for (const ObstacleParameters &obstacle : scene.get_parameters().obstacles.named)
       {
         if (obstacle.name == "floor")
-          throw UserError("--floor: the scene has an obstacle of this name already. Leave --floor out, or "
-                          "rename that in Obstacles/Names.");
+          throw UserError(
+              "--floor: the scene has an obstacle of this name already. Leave --floor out, or "
+              "rename that in Obstacles/Names.");
         names += obstacle.name + ", ";
       }
       std::array<double, 3> point{}, normal{};
-      point[axis]  = place;
-      normal[axis] = *steep > 0. ? -1. : 1.;
+      point[axis]       = place;
+      normal[axis]      = *steep > 0. ? -1. : 1.;
       std::string shape = "plane";
       for (const auto &numbers : { point, normal })
         for (const double number : numbers)

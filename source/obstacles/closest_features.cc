@@ -108,9 +108,9 @@ namespace Exemplar
     const SpaceVector3 e = x[1] - x[0], f = q[1] - q[0], r = x[0] - q[0];
     const double       ee = e * e, ff = f * f, ef = e * f;
     // the end points, each with the nearest point of the other edge, hold the best if the lines are parallel
-    Nearest      best  = between(x, q, 0., part_on(q[0], q[1], x[0]));
-    double       least = best.way.norm_square();
-    const auto   offer = [&](const double s, const double t)
+    Nearest    best  = between(x, q, 0., part_on(q[0], q[1], x[0]));
+    double     least = best.way.norm_square();
+    const auto offer = [&](const double s, const double t)
     {
       const Nearest other  = between(x, q, s, t);
       const double  square = other.way.norm_square();
@@ -147,10 +147,9 @@ namespace Exemplar
   }
 
   bool
-  passes_through(const std::array<SpaceVector3, 2> &edge,
-                 const std::array<SpaceVector3, 3> &x)
+  passes_through(const std::array<SpaceVector3, 2> &edge, const std::array<SpaceVector3, 3> &x)
   {
-    const SpaceVector3 n = dealii::cross_product_3d(x[1] - x[0], x[2] - x[0]);
+    const SpaceVector3 n     = dealii::cross_product_3d(x[1] - x[0], x[2] - x[0]);
     const double       begin = (edge[0] - x[0]) * n, end = (edge[1] - x[0]) * n;
     if (!((begin < 0. && end > 0.) || (begin > 0. && end < 0.)))
       return false;

@@ -60,7 +60,7 @@ namespace Exemplar
       const auto &[cell, opposite] = cells.at(key);
       for (Corners corners : flat_triangles(fe_space.numbering().of_face(face)))
       {
-        const auto                 x = [&](const unsigned int k) { return fe_space.rest_position(corners[k]); };
+        const auto x = [&](const unsigned int k) { return fe_space.rest_position(corners[k]); };
         const dealii::Tensor<1, 3> n = dealii::cross_product_3d(x(1) - x(0), x(2) - x(0));
         if (n * (fe_space.rest_position(opposite) - x(0)) > 0.)
           std::swap(corners[1], corners[2]);

@@ -16,10 +16,9 @@ namespace Exemplar
   {
     const double         angle = vector.norm();
     dealii::Tensor<2, 3> result;
-    const double         cosine = std::cos(angle);
-    const double sine_part = angle > 0. ? std::sin(angle) / angle : 1.;
-    const double square_part
-        = angle > 0. ? 2. * std::pow(std::sin(0.5 * angle) / angle, 2) : 0.5;
+    const double         cosine    = std::cos(angle);
+    const double         sine_part = angle > 0. ? std::sin(angle) / angle : 1.;
+    const double square_part = angle > 0. ? 2. * std::pow(std::sin(0.5 * angle) / angle, 2) : 0.5;
     for (unsigned int i = 0; i < 3; ++i)
     {
       result[i][i] += cosine;
@@ -46,7 +45,7 @@ namespace Exemplar
     void
     refuse_crossings(const ObstacleShape &shape, const std::string &key)
     {
-      const auto           &x = shape.vertices;
+      const auto          &x = shape.vertices;
       std::vector<AxisBox> boxes;
       for (const auto &triangle : shape.triangles)
       {
@@ -60,22 +59,23 @@ namespace Exemplar
         AxisBox box;
         box.add(x[i]);
         box.add(x[j]);
-        tree.visit(box,
-                   [&, i = i, j = j](const unsigned int t)
-                   {
-                     const auto &corner  = shape.triangles[t];
-                     const auto  touches = [&](const unsigned int v)
-                     { return std::count(corner.begin(), corner.end(), v) > 0; };
-                     if (touches(i) || touches(j)
-                         || !passes_through({ { x[i], x[j] } },
-                                            { { x[corner[0]], x[corner[1]], x[corner[2]] } }))
-                       return;
-                     const SpaceVector3 place = x[i] + shape.middle;
-                     throw UserError(fmt::format(
-                         "{}: the surface intersects itself near ({:.4g}, {:.4g}, {:.4g}) m. Repair "
-                         "it, as by exemplar mesh --repair, or give the parts as two obstacles.",
-                         key, place[0], place[1], place[2]));
-                   });
+        tree.visit(
+            box,
+            [&, i = i, j = j](const unsigned int t)
+            {
+              const auto &corner  = shape.triangles[t];
+              const auto  touches = [&](const unsigned int v)
+              { return std::count(corner.begin(), corner.end(), v) > 0; };
+              if (touches(i) || touches(j)
+                  || !passes_through({ { x[i], x[j] } },
+                                     { { x[corner[0]], x[corner[1]], x[corner[2]] } }))
+                return;
+              const SpaceVector3 place = x[i] + shape.middle;
+              throw UserError(fmt::format(
+                  "{}: the surface intersects itself near ({:.4g}, {:.4g}, {:.4g}) m. Repair "
+                  "it, as by exemplar mesh --repair, or give the parts as two obstacles.",
+                  key, place[0], place[1], place[2]));
+            });
       }
     }
   } // namespace
@@ -110,7 +110,8 @@ namespace Exemplar
   ObstaclePose
   Obstacle::pose(const double time) const
   {
-    return { rotation_by(turn.vector({}, time)), own_shape.middle + shift + motion.vector({}, time) };
+    return { rotation_by(turn.vector({}, time)),
+             own_shape.middle + shift + motion.vector({}, time) };
   }
 
   std::vector<SpaceVector3>
@@ -119,8 +120,8 @@ namespace Exemplar
     if (!deforms())
       return own_shape.vertices;
     const std::vector<double> &times = track.times;
-    const auto                 after = static_cast<std::size_t>(
-        std::upper_bound(times.begin(), times.end(), time) - times.begin());
+    const auto after = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time)
+                                                - times.begin());
     const std::size_t last   = times.size() - 1;
     const std::size_t before = after == 0 ? 0 : after - 1, next = std::min(after, last);
     const double      share

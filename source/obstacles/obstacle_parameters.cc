@@ -14,22 +14,25 @@ namespace Exemplar
   ObstacleParameters::declare(KeyTable &keys)
   {
     keys.enter_subsection(name);
-    keys.add("Shape", shape,
-             "What the body may not pass: " + obstacle_forms
-                 + ". A plane is given by a point and by the normal of the side on which the body is; "
-                   "FILE (.obj, .ply, .stl) is in the unit of the mesh file.",
-             " ");
+    keys.add(
+        "Shape", shape,
+        "What the body may not pass: " + obstacle_forms
+            + ". A plane is given by a point and by the normal of the side on which the body is; "
+              "FILE (.obj, .ply, .stl) is in the unit of the mesh file.",
+        " ");
     keys.add("Motion", motion, "Displacement [m], three functions of t [s].", "; ");
-    keys.add("Turn", turn,
-             "Rotation vector [rad], three functions of t [s], about the point of a plane, the middle "
-             "of other shapes.",
-             "; ");
-    keys.add_file("Follow cache", follow_cache,
-                  "Places of the vertices of a surface in time: a .mdd or .pc2 file, or a sequence of "
-                  "surfaces such as rig_*.obj, in the unit of the mesh file. Instead of Motion and "
-                  "Turn.");
-    keys.add("Frames per second", frames_per_second,
-             "Of a cache that counts in frames.", Bounds::positive());
+    keys.add(
+        "Turn", turn,
+        "Rotation vector [rad], three functions of t [s], about the point of a plane, the middle "
+        "of other shapes.",
+        "; ");
+    keys.add_file(
+        "Follow cache", follow_cache,
+        "Places of the vertices of a surface in time: a .mdd or .pc2 file, or a sequence of "
+        "surfaces such as rig_*.obj, in the unit of the mesh file. Instead of Motion and "
+        "Turn.");
+    keys.add("Frames per second", frames_per_second, "Of a cache that counts in frames.",
+             Bounds::positive());
     keys.add("Friction", friction, "Coefficient of Coulomb's friction.");
     keys.add("From", from, "The obstacle is there in steps that begin at this t [s] or later.");
     keys.add("Until", until,
@@ -61,7 +64,8 @@ namespace Exemplar
                       + " are both given, but only one of them can say where the obstacle goes. "
                         "Remove one of them.");
     if (until != "end" && !std::isfinite(parse_number(until)))
-      throw UserError(key + "/Until = '" + until + "' is not allowed. Allowed: end, or a time [s].");
+      throw UserError(key + "/Until = '" + until
+                      + "' is not allowed. Allowed: end, or a time [s].");
     if (until != "end" && parse_number(until) <= from)
       throw UserError(key + "/Until = " + until + " is not after " + key
                       + "/From = " + shortest_text(from) + ": the obstacle would never be there.");
@@ -114,8 +118,8 @@ namespace Exemplar
     check_length(const std::string &text, const std::string &key, const std::string &unit)
     {
       if (text != "auto" && !(parse_number(text) > 0. && std::isfinite(parse_number(text))))
-        throw UserError(key + " = '" + text + "' is not allowed. Allowed: auto, or a positive number ["
-                        + unit + "].");
+        throw UserError(key + " = '" + text
+                        + "' is not allowed. Allowed: auto, or a positive number [" + unit + "].");
     }
   } // namespace
 

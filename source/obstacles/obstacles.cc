@@ -26,7 +26,8 @@ namespace Exemplar
   bool
   Obstacles::move_between(const double time, const double other_time) const
   {
-    return std::any_of(all.begin(), all.end(), [&](const Obstacle &obstacle)
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Obstacle &obstacle)
                        { return obstacle.moves_between(time, other_time); });
   }
 

@@ -55,8 +55,8 @@ namespace Exemplar
                 const Vector           &positions)
     {
       Geometry   result;
-      const auto own = [&](const unsigned int v)
-      { return standing.pose.to_space(standing.vertices[v]); };
+      const auto own
+          = [&](const unsigned int v) { return standing.pose.to_space(standing.vertices[v]); };
       for (const ContactSurface::Triangle &t : body.triangles)
         result.body.push_back({ { at_node(positions, t.nodes[0]), at_node(positions, t.nodes[1]),
                                   at_node(positions, t.nodes[2]) } });
@@ -135,8 +135,7 @@ namespace Exemplar
     SpaceVector3
     agreed(const Exchange &exchange, const bool has, const SpaceVector3 &own)
     {
-      const double first
-          = min_of_all(exchange, has ? exchange.process() : exchange.n_processes());
+      const double first = min_of_all(exchange, has ? exchange.process() : exchange.n_processes());
       std::array<double, 3> numbers{};
       for (unsigned int c = 0; c < 3 && has && exchange.process() == first; ++c)
         numbers[c] = own[c];
@@ -197,7 +196,7 @@ namespace Exemplar
       result.place    = at_node(positions, node);
       result.outwards = normal_at(node, body, positions);
     }
-    const double least = min_of_all(exchange, result.least);
+    const double least  = min_of_all(exchange, result.least);
     const bool   is_own = is_near && result.least == least;
     result.least        = least;
 
@@ -207,17 +206,17 @@ namespace Exemplar
     const std::vector<SpaceVector3> crossed = crossing(body, positions, geometry);
     result.is_crossed                       = exchange.any(!crossed.empty());
     // place and normal are those of the nearest pair, if there is one
-    result.outwards = agreed(exchange, is_own, result.outwards);
+    result.outwards        = agreed(exchange, is_own, result.outwards);
     const bool knows_place = least < reach;
-    result.place = agreed(exchange, knows_place ? is_own : !crossed.empty(),
+    result.place           = agreed(exchange, knows_place ? is_own : !crossed.empty(),
                           knows_place || crossed.empty() ? result.place : crossed[0]);
-    if (result.is_crossed || shape.vertices.empty())
+              if (result.is_crossed || shape.vertices.empty())
       return result;
     // nothing crosses: one is within the other as a whole, or not at all
     const SpaceVector3 of_obstacle = standing.pose.to_space(standing.vertices[0]);
     const bool         has_node    = !body.nodes.empty();
     const SpaceVector3 of_body     = agreed(
-        exchange, has_node, has_node ? at_node(positions, body.nodes[0].node) : SpaceVector3());
+            exchange, has_node, has_node ? at_node(positions, body.nodes[0].node) : SpaceVector3());
     result.is_crossed = is_inside(of_obstacle, geometry.body, &exchange);
     if (!geometry.obstacle.empty() && (shape.is_closed || shape.half_sizes)
         && is_inside(of_body, geometry.obstacle, nullptr))

@@ -21,7 +21,9 @@ namespace Exemplar
   energy_of(const Contact &contact)
   {
     const double full = full_barrier(contact).value(contact.gap.distance);
-    return contact.m == 0. && contact.gap.distance > 0. ? 0. : contact.m == 1. ? full : contact.m * full;
+    return contact.m == 0. && contact.gap.distance > 0. ? 0.
+           : contact.m == 1.                            ? full
+                                                        : contact.m * full;
   }
 
   ContactGradient
@@ -46,10 +48,10 @@ namespace Exemplar
     ContactHessian
     curvature_of_distance(const Contact &contact)
     {
-      ContactHessian  result;
-      const Nearest  &at     = contact.at.nearest;
-      const double    length = at.way.norm();
-      const unsigned  n      = contact.gap.n_nodes;
+      ContactHessian result;
+      const Nearest &at     = contact.at.nearest;
+      const double   length = at.way.norm();
+      const unsigned n      = contact.gap.n_nodes;
       if (contact.at.is_flat || length == 0.)
         return result;
       // inverse of the Gram matrix of dv; parameters of parallel edges are one
@@ -82,7 +84,8 @@ namespace Exemplar
           for (unsigned int k = 0; k < at.n_free; ++k)
             for (unsigned int l = 0; l < at.n_free; ++l)
               block -= inverse[k][l] * dealii::outer_product(mixed[i][k], mixed[j][l]);
-          block -= at.a[i] * at.a[j] * dealii::outer_product(contact.gap.normal, contact.gap.normal);
+          block
+              -= at.a[i] * at.a[j] * dealii::outer_product(contact.gap.normal, contact.gap.normal);
           block /= length;
         }
       return result;
@@ -96,7 +99,7 @@ namespace Exemplar
     const Gap     &gap       = contact.gap;
     const double   d         = gap.distance;
     const double   curvature = contact.m * barrier.curvature(d), slope = barrier.slope(d);
-    const auto     n_n       = dealii::outer_product(gap.normal, gap.normal);
+    const auto     n_n = dealii::outer_product(gap.normal, gap.normal);
     ContactHessian result;
     if (kind == Tangent::exact)
       result = curvature_of_distance(contact);

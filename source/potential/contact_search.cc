@@ -24,14 +24,14 @@ namespace Exemplar
   void
   StandingObstacle::move_to(const double time)
   {
-    pose                   = obstacle->pose(time);
-    const bool is_made     = !vertices.empty();
+    pose               = obstacle->pose(time);
+    const bool is_made = !vertices.empty();
     if (is_made && !obstacle->deforms() && version == obstacle->version())
       return;
-    version                = obstacle->version();
-    vertices               = obstacle->vertices(time);
-    around                 = {};
-    const auto  box_of     = [&](const auto &corners)
+    version           = obstacle->version();
+    vertices          = obstacle->vertices(time);
+    around            = {};
+    const auto box_of = [&](const auto &corners)
     {
       AxisBox box;
       for (const unsigned int v : corners)
@@ -124,23 +124,23 @@ namespace Exemplar
     };
     switch (pair.kind)
     {
-      case PairKind::node_box:
-        return nearest_of_box(*shape.half_sizes, x[0]);
-      case PairKind::node_triangle:
-      {
-        const auto &t = shape.triangles[pair.of_obstacle];
-        return reversed(nearest({ { corner(t[0]), corner(t[1]), corner(t[2]) } }, x[0]));
-      }
-      case PairKind::node_edge:
-      {
-        Nearest result = nearest({ { x[0], x[0] } }, edge());
-        result.a       = { { 1., 0., 0. } };
-        return result;
-      }
-      case PairKind::edge_edge:
-        return nearest({ { x[0], x[1] } }, edge());
-      default:
-        return nearest(x, corner(shape.points[pair.of_obstacle]));
+    case PairKind::node_box:
+      return nearest_of_box(*shape.half_sizes, x[0]);
+    case PairKind::node_triangle:
+    {
+      const auto &t = shape.triangles[pair.of_obstacle];
+      return reversed(nearest({ { corner(t[0]), corner(t[1]), corner(t[2]) } }, x[0]));
+    }
+    case PairKind::node_edge:
+    {
+      Nearest result = nearest({ { x[0], x[0] } }, edge());
+      result.a       = { { 1., 0., 0. } };
+      return result;
+    }
+    case PairKind::edge_edge:
+      return nearest({ { x[0], x[1] } }, edge());
+    default:
+      return nearest(x, corner(shape.points[pair.of_obstacle]));
     }
   }
 
@@ -180,24 +180,24 @@ namespace Exemplar
                          const PairCorners  &x,
                          const PairDistance &at) const
   {
-    Contact result{ number, pair, {}, at, 0., 1., {}, {}, {} };
-    double  share = 0.;
-    const dealii::Tensor<2, 3> &R = standing.pose.rotation;
+    Contact                     result{ number, pair, {}, at, 0., 1., {}, {}, {} };
+    double                      share = 0.;
+    const dealii::Tensor<2, 3> &R     = standing.pose.rotation;
     if (pair.kind == PairKind::edge_edge)
     {
       const ContactSurface::Edge &edge = surface.edges[pair.of_body];
       share                            = edge.share;
-      const auto        &other  = standing.shape().edges[pair.of_obstacle];
-      const SpaceVector3 e      = R * (x.places[1] - x.places[0]);
+      const auto        &other         = standing.shape().edges[pair.of_obstacle];
+      const SpaceVector3 e             = R * (x.places[1] - x.places[0]);
       const SpaceVector3 f      = R * (standing.vertices[other[1]] - standing.vertices[other[0]]);
       const double       square = dealii::cross_product_3d(e, f).norm_square();
       const double       full   = parallel * edge.square * f.norm_square();
       if (square < full)
       {
-        const double       part      = square / full;
-        const SpaceVector3 by_e      = 2. / full * (f.norm_square() * e - (e * f) * f);
-        result.m                     = part * (2. - part);
-        result.by_edge               = 2. * (1. - part) * by_e;
+        const double       part         = square / full;
+        const SpaceVector3 by_e         = 2. / full * (f.norm_square() * e - (e * f) * f);
+        result.m                        = part * (2. - part);
+        result.by_edge                  = 2. * (1. - part) * by_e;
         dealii::Tensor<2, 3> by_e_twice = -dealii::outer_product(f, f);
         for (unsigned int c = 0; c < 3; ++c)
           by_e_twice[c][c] += f.norm_square();

@@ -19,8 +19,7 @@ namespace Exemplar
                              const Material       &material)
       : obstacles(obstacles), surface(surface), material(material),
         have_friction(obstacles.have_friction()), sums_of(obstacles.all.size()),
-        has_appeared(obstacles.all.size(), 0),
-        least_gap(obstacles.width)
+        has_appeared(obstacles.all.size(), 0), least_gap(obstacles.width)
   {
     for (const Obstacle &obstacle : obstacles.all)
       standing.emplace_back(obstacle);
@@ -128,8 +127,9 @@ namespace Exemplar
     double part = std::numeric_limits<double>::infinity();
     for (unsigned int i = 0; i < standing.size(); ++i)
       if (is_there(i))
-        part = std::min(part, ContactSearch(surface, obstacles, standing[i], i)
-                                  .max_step(positions, displacement));
+        part = std::min(
+            part,
+            ContactSearch(surface, obstacles, standing[i], i).max_step(positions, displacement));
     return part;
   }
 
@@ -144,7 +144,6 @@ namespace Exemplar
     in_step   = true;
     follow_times(at);
     rubbing.clear();
-    last_rubbing.clear();
     n_renewals = 0;
     if (!have_friction)
       return;
@@ -168,7 +167,8 @@ namespace Exemplar
       const Clearance room = clearance(surface, obstacles, now, i, at.positions, obstacles.width,
                                        free_dofs->exchange());
       if (room.is_crossed || room.least < obstacles.width)
-        throw SolverFailure("Obstacles/" + obstacle.name() + " appears at t = " + shortest_text(at.time)
+        throw SolverFailure("Obstacles/" + obstacle.name()
+                            + " appears at t = " + shortest_text(at.time)
                             + " s where the body is, or nearer to it than the distance from which "
                               "it pushes. Change its From, or where it is then.");
       has_appeared[i] = 1;
@@ -206,7 +206,8 @@ namespace Exemplar
       }
       result.push_back(at);
     }
-    std::sort(result.begin(), result.end(), [](const Rubbing &a, const Rubbing &b)
+    std::sort(result.begin(), result.end(),
+              [](const Rubbing &a, const Rubbing &b)
               { return std::tie(a.obstacle, a.key) < std::tie(b.obstacle, b.key); });
     return result;
   }
@@ -243,16 +244,11 @@ namespace Exemplar
     constexpr unsigned int max_renewals = 20;
     if (!have_friction || !in_step || n_renewals > max_renewals)
       return TermChange::none;
-    std::vector<Rubbing> fresh             = rubbing_at(at.positions);
-    const auto [own_greatest, own_change]  = force_and_change(fresh, rubbing);
-    const double since_last                = force_and_change(fresh, last_rubbing).second;
-    const Exchange &exchange               = free_dofs->exchange();
-    const double    change                 = exchange.max(own_change);
-    const double    greatest               = exchange.max(own_greatest);
-    // as long as iterations still change them more, normal forces are not yet those of a solution
-    const bool is_settled = n_renewals == 0 || exchange.max(since_last) <= 0.5 * change;
-    last_rubbing          = fresh;
-    if (change <= obstacles.lag_tolerance * greatest || !is_settled)
+    std::vector<Rubbing> fresh            = rubbing_at(at.positions);
+    const auto [own_greatest, own_change] = force_and_change(fresh, rubbing);
+    const double greatest                 = free_dofs->exchange().max(own_greatest);
+    const double change                   = free_dofs->exchange().max(own_change);
+    if (change <= obstacles.lag_tolerance * greatest)
       return TermChange::none;
     ++n_renewals;
     rubbing = std::move(fresh);
@@ -322,16 +318,16 @@ namespace Exemplar
     }
     for (const Rubbing &at : rubbing)
       sums_of[at.obstacle].heat += slip_energy(at).heat(slip(at, end.positions).norm());
-    visit_forces(end.positions,
-                 [&](const unsigned int obstacle, const unsigned int node, const SpaceVector3 &force)
-                 {
-                   const SpaceVector3 x    = at_node(end.positions, node);
-                   Sums              &sums = sums_of[obstacle];
-                   sums.force += force;
-                   sums.torque
-                       += dealii::cross_product_3d(x - standing[obstacle].pose.place, force);
-                   sums.work += force * (x - at_node(start, node));
-                 });
+    visit_forces(
+        end.positions,
+        [&](const unsigned int obstacle, const unsigned int node, const SpaceVector3 &force)
+        {
+          const SpaceVector3 x    = at_node(end.positions, node);
+          Sums              &sums = sums_of[obstacle];
+          sums.force += force;
+          sums.torque += dealii::cross_product_3d(x - standing[obstacle].pose.place, force);
+          sums.work += force * (x - at_node(start, node));
+        });
   }
 
   void
@@ -440,11 +436,8 @@ namespace Exemplar
       std::array<double, 8> all{ { own.force[0], own.force[1], own.force[2], own.torque[0],
                                    own.torque[1], own.torque[2], own.work, own.heat } };
       free_dofs->exchange().sum(all.data(), all.size());
-      result.push_back({ obstacles.all[i].name(),
-                         dealii::Point<3>(all[0], all[1], all[2]),
-                         dealii::Point<3>(all[3], all[4], all[5]),
-                         all[6],
-                         all[7] });
+      result.push_back({ obstacles.all[i].name(), dealii::Point<3>(all[0], all[1], all[2]),
+                         dealii::Point<3>(all[3], all[4], all[5]), all[6], all[7] });
     }
     return result;
   }

@@ -31,10 +31,10 @@ namespace Exemplar::Python
           for (const ObstacleReport &report : of_obstacles->report())
           {
             py::dict one;
-            one["force"]             = array_of(report.force);
-            one["torque"]            = array_of(report.torque);
-            one["work"]              = report.work;
-            one["heat"]              = report.heat;
+            one["force"]                 = array_of(report.force);
+            one["torque"]                = array_of(report.torque);
+            one["work"]                  = report.work;
+            one["heat"]                  = report.heat;
             result[py::str(report.name)] = one;
           }
       return result;
@@ -63,12 +63,14 @@ namespace Exemplar::Python
   {
     problem.def_property_readonly(
         "obstacles", &obstacles,
-        "What each obstacle did to the body: a dictionary by names, of dictionaries with 'force' (3,)\n"
-        "[N] and 'torque' (3,) [N m] at the end of the last step, and 'work' and the 'heat' of friction\n"
+        "What each obstacle did to the body: a dictionary by names, of dictionaries with 'force' "
+        "(3,)\n"
+        "[N] and 'torque' (3,) [N m] at the end of the last step, and 'work' and the 'heat' of "
+        "friction\n"
         "[J] since the beginning, as in doc/contact.md. Empty without obstacles.");
-    problem.def_property_readonly(
-        "contact_forces", &contact_forces,
-        "Forces (n, 3) [N] of all obstacles on the nodes, a read-only copy; with Element = P2 n counts the\n"
-        "nodes in the middles of edges, too.");
+    problem.def_property_readonly("contact_forces", &contact_forces,
+                                  "Forces (n, 3) [N] of all obstacles on the nodes, a read-only "
+                                  "copy; with Element = P2 n counts the\n"
+                                  "nodes in the middles of edges, too.");
   }
 } // namespace Exemplar::Python

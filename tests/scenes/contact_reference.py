@@ -87,7 +87,10 @@ class Reference:
 
         def contact(x):
             energy, force, matrix = 0.0, np.zeros_like(x), np.zeros((x.size, x.size))
-            for corners, stiffness in zip(self.triangles, k):
+            middles = x[self.triangles].mean(1)
+            sizes = np.linalg.norm(x[self.triangles] - middles[:, None], axis=2).max(1)
+            near = np.linalg.norm(middles - centre, axis=1) - sizes < radius + self.width
+            for corners, stiffness in zip(self.triangles[near], k[near]):
                 share = nearest_in_triangle(x[corners], centre)
                 way = share @ x[corners] - centre
                 length = np.linalg.norm(way)
@@ -123,15 +126,17 @@ class Reference:
                 step[i] = 1e-6 * self.width
                 step = step.reshape(y.shape)
                 stiffness[:, i] = ((self.elastic_force(y + step)[1] - self.elastic_force(y - step)[1]) / (2e-6 * self.width)).ravel()
-            direction = -np.linalg.solve(mass + (stiffness + stiffness.T) / 2 + curvature, gradient).reshape(y.shape)
+            values, vectors = np.linalg.eigh(mass + (stiffness + stiffness.T) / 2 + curvature)
+            direction = -(vectors @ ((vectors.T @ gradient) / np.abs(values))).reshape(y.shape)  # descends where it is indefinite, too
             if np.abs(direction).max() < 1e-14:
                 break
             part = 1.0
             slope = gradient @ direction.ravel()
             while part > 1e-12:
                 after = all_of(y + part * direction)
+                at_rounding = abs(part * slope) < 1e-10 * abs(energy)
                 if after[0] <= energy + 1e-4 * part * slope or \
-                        np.isfinite(after[0]) and np.abs(after[1]).max() < np.abs(gradient).max() and part == 1:
+                        at_rounding and np.isfinite(after[0]) and np.linalg.norm(after[1]) < np.linalg.norm(gradient):
                     break
                 part /= 2
             y = y + part * direction

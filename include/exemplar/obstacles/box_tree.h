@@ -100,8 +100,8 @@ namespace Exemplar
     struct Node
     {
       AxisBox      box;
-      unsigned int begin, end;   ///< of `items`
-      unsigned int right = 0;    ///< the second node below, the first follows this one; 0: none
+      unsigned int begin, end; ///< of `items`
+      unsigned int right = 0;  ///< the second node below, the first follows this one; 0: none
     };
 
     unsigned int

@@ -27,13 +27,13 @@ namespace Exemplar
     {
       std::array<unsigned int, 3> nodes; ///< outwards, counterclockwise
       unsigned int                cell;
-      double                      area;      ///< at rest [m^2]
+      double                      area;       ///< at rest [m^2]
       double                      share = 0.; ///< [N]
     };
 
     struct Edge
     {
-      std::array<unsigned int, 2> nodes; ///< ascending
+      std::array<unsigned int, 2> nodes;      ///< ascending
       double                      square;     ///< of its length at rest [m^2]
       double                      share = 0.; ///< [N]
     };

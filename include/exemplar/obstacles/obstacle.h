@@ -18,9 +18,9 @@ namespace Exemplar
   /// A surface that is an obstacle [m], and the places of its vertices in time, if it follows a cache.
   struct ObstacleSurface
   {
-    std::vector<std::array<double, 3>>              vertices;
-    std::vector<std::array<unsigned int, 3>>        triangles;
-    std::vector<double>                             times;   ///< [s], ascending; empty: it does not move by itself
+    std::vector<std::array<double, 3>>       vertices;
+    std::vector<std::array<unsigned int, 3>> triangles;
+    std::vector<double> times; ///< [s], ascending; empty: it does not move by itself
     std::vector<std::vector<std::array<double, 3>>> samples; ///< vertices at these times [m]
 
     template <typename Archive>

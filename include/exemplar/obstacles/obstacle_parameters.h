@@ -13,13 +13,13 @@ namespace Exemplar
   struct ObstacleParameters
   {
     std::string name;
-    std::string shape;                    ///< with an absolute FILE of "surface FILE"
-    std::string motion = "0; 0; 0";       ///< displacement by t [m]
-    std::string turn   = "0; 0; 0";       ///< rotation vector by t [rad]
-    std::string follow_cache;             ///< of the vertices of a surface; empty: none
-    double      frames_per_second = 24.;  ///< of the cache
-    double      friction          = 0.;   ///< coefficient [-]
-    double      from              = 0.;   ///< [s]
+    std::string shape;                     ///< with an absolute FILE of "surface FILE"
+    std::string motion = "0; 0; 0";        ///< displacement by t [m]
+    std::string turn   = "0; 0; 0";        ///< rotation vector by t [rad]
+    std::string follow_cache;              ///< of the vertices of a surface; empty: none
+    double      frames_per_second = 24.;   ///< of the cache
+    double      friction          = 0.;    ///< coefficient [-]
+    double      from              = 0.;    ///< [s]
     std::string until             = "end"; ///< [s]
 
     void

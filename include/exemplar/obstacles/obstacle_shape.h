@@ -34,10 +34,10 @@ namespace Exemplar
     std::vector<SpaceVector3>                vertices;   ///< [m]
     std::vector<unsigned int>                points;
     std::vector<std::array<unsigned int, 2>> edges;
-    std::vector<std::array<unsigned int, 3>> triangles; ///< of a surface
-    double                                   radius = 0.; ///< around points and edges [m]
-    bool is_closed = true;  ///< whether it has an inside
-    bool bounds    = false; ///< whether the body is inside of it, as in a box
+    std::vector<std::array<unsigned int, 3>> triangles;        ///< of a surface
+    double                                   radius    = 0.;   ///< around points and edges [m]
+    bool                                     is_closed = true; ///< whether it has an inside
+    bool bounds = false; ///< whether the body is inside of it, as in a box
 
     /// Whether nodes may meet the edges: those of a capsule.
     bool

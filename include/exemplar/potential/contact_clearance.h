@@ -10,10 +10,11 @@ namespace Exemplar
   /// How a body stands to an obstacle.
   struct Clearance
   {
-    double       least;     ///< the least signed distance of a pair [m], at most the reach that was asked for
-    SpaceVector3 place;     ///< of the body, where that is [m]
-    SpaceVector3 outwards;  ///< the body's unit normal there
-    bool         is_crossed = false; ///< whether surfaces pass through each other, or one is within the other
+    double least; ///< the least signed distance of a pair [m], at most the reach that was asked for
+    SpaceVector3 place;    ///< of the body, where that is [m]
+    SpaceVector3 outwards; ///< the body's unit normal there
+    bool         is_crossed
+        = false; ///< whether surfaces pass through each other, or one is within the other
   };
 
   /// Of the whole body, by all processes; `body` has the mesh's shares or none.

@@ -31,10 +31,10 @@ namespace Exemplar
   {
     unsigned int obstacle;
     PairKey      key;
-    Gap          gap;          ///< of which nodes, coefficients and normal serve
-    double       force;        ///< normal force [N]
-    double       coefficient;  ///< of friction [-]
-    SpaceVector3 own_place;    ///< the obstacle's point, in its axes [m]
+    Gap          gap;         ///< of which nodes, coefficients and normal serve
+    double       force;       ///< normal force [N]
+    double       coefficient; ///< of friction [-]
+    SpaceVector3 own_place;   ///< the obstacle's point, in its axes [m]
     /// Where that point is between vertices that move by themselves.
     std::array<unsigned int, 3> vertices;
     std::array<double, 3>       shares;

@@ -74,21 +74,21 @@ namespace Exemplar
   struct PairDistance
   {
     Nearest      nearest;
-    SpaceVector3 normal;          ///< gradient by the body's point; 0 where there is none
-    double       distance = 0.;   ///< less the radius [m]
-    bool         is_flat = false; ///< a half space: the distance has no second derivative
+    SpaceVector3 normal;           ///< gradient by the body's point; 0 where there is none
+    double       distance = 0.;    ///< less the radius [m]
+    bool         is_flat  = false; ///< a half space: the distance has no second derivative
   };
 
   /// A pair that is nearer than its width, in space. Edges that are almost parallel have the part `m` of the energy:
   /// m = 1 beside them, and its gradient by the vector e of the body's edge is `by_edge`.
   struct Contact
   {
-    unsigned int obstacle; ///< its number
-    ContactPair  pair;
-    Gap          gap; ///< its stiffness is m times the full one
-    PairDistance at;  ///< turned into space
-    double       full_stiffness; ///< k [N]
-    double       m = 1.;
+    unsigned int         obstacle; ///< its number
+    ContactPair          pair;
+    Gap                  gap;            ///< its stiffness is m times the full one
+    PairDistance         at;             ///< turned into space
+    double               full_stiffness; ///< k [N]
+    double               m = 1.;
     SpaceVector3         by_edge;       ///< dm/de [1/m]
     dealii::Tensor<2, 3> by_edge_twice; ///< d^2m/de^2 [1/m^2]
     SpaceVector3         of_obstacle;   ///< the obstacle's point [m]
@@ -188,8 +188,8 @@ namespace Exemplar
                                   const double  reach,
                                   const Visit  &visit) const
   {
-    const ObstacleShape &shape = standing.shape();
-    const double         wide  = reach + shape.radius;
+    const ObstacleShape &shape  = standing.shape();
+    const double         wide   = reach + shape.radius;
     const auto           box_of = [&](const auto &nodes)
     {
       AxisBox box;
@@ -213,20 +213,28 @@ namespace Exemplar
         continue;
       if (shape.half_sizes)
         visit(ContactPair{ PairKind::node_box, i, 0 });
-      standing.triangles.visit(box, [&](const unsigned int t)
-                               { visit(ContactPair{ PairKind::node_triangle, i, t }); });
+      standing.triangles.visit(box,
+                               [&](const unsigned int t) {
+                                 visit(ContactPair{ PairKind::node_triangle, i, t });
+                               });
       if (shape.edges_meet_nodes())
-        standing.edges.visit(box, [&](const unsigned int e)
-                             { visit(ContactPair{ PairKind::node_edge, i, e }); });
+        standing.edges.visit(box,
+                             [&](const unsigned int e) {
+                               visit(ContactPair{ PairKind::node_edge, i, e });
+                             });
     }
     for (unsigned int i = 0; i < surface.edges.size() && !standing.edges.empty(); ++i)
       if (const AxisBox box = box_of(surface.edges[i].nodes); box.meets(standing.around))
-        standing.edges.visit(box, [&](const unsigned int e)
-                             { visit(ContactPair{ PairKind::edge_edge, i, e }); });
+        standing.edges.visit(box,
+                             [&](const unsigned int e) {
+                               visit(ContactPair{ PairKind::edge_edge, i, e });
+                             });
     for (unsigned int i = 0; i < surface.triangles.size() && !standing.points.empty(); ++i)
       if (const AxisBox box = box_of(surface.triangles[i].nodes); box.meets(standing.around))
-        standing.points.visit(box, [&](const unsigned int p)
-                              { visit(ContactPair{ PairKind::triangle_point, i, p }); });
+        standing.points.visit(box,
+                              [&](const unsigned int p) {
+                                visit(ContactPair{ PairKind::triangle_point, i, p });
+                              });
   }
 
   template <typename Visit>
@@ -234,7 +242,8 @@ namespace Exemplar
   ContactSearch::visit_near(const Vector &positions, const double reach, const Visit &visit) const
   {
     const Places places = places_of(positions);
-    visit_candidates(places, places, reach, [&](const ContactPair &pair)
+    visit_candidates(places, places, reach,
+                     [&](const ContactPair &pair)
                      { visit(pair, distance(pair, corners(pair, places).places)); });
   }
 } // namespace Exemplar

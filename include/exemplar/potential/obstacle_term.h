@@ -185,28 +185,27 @@ namespace Exemplar
       return there.empty() || there[obstacle] != 0;
     }
 
-    const Obstacles      &obstacles;
-    ContactSurface        surface; ///< with the shares of the material
-    const Material       &material;
-    const bool            have_friction;
+    const Obstacles              &obstacles;
+    ContactSurface                surface; ///< with the shares of the material
+    const Material               &material;
+    const bool                    have_friction;
     std::vector<StandingObstacle> standing;
     std::vector<StandingObstacle> at_start; ///< of the step; empty without friction
     std::vector<char>             there;    ///< whether each is there in this step
     double                        time      = 0.;
     double                        step_size = 0.;
     bool                          in_step   = false;
-    Vector                        start;    ///< positions where the step begins
-    std::vector<Rubbing>          rubbing;  ///< since the last renewal
-    std::vector<Rubbing>          last_rubbing; ///< where the last iteration began
+    Vector                        start;   ///< positions where the step begins
+    std::vector<Rubbing>          rubbing; ///< since the last renewal
     unsigned int                  n_renewals = 0;
-    std::vector<Sums>             sums_of;  ///< of this process
-    std::vector<char>             has_appeared; ///< of those with From, whether they have been there
-    double                        barrier_energy = 0.; ///< where a step ended
-    double                        least_gap;
-    double                        n_pairs = 0.;
-    std::vector<double>           node_areas; ///< of the whole body, by node [m^2]
-    const SymmetricPattern       *pattern   = nullptr; ///< since attach()
-    const FreeDofs               *free_dofs = nullptr; ///< since attach()
+    std::vector<Sums>             sums_of; ///< of this process
+    std::vector<char>       has_appeared;  ///< of those with From, whether they have been there
+    double                  barrier_energy = 0.; ///< where a step ended
+    double                  least_gap;
+    double                  n_pairs = 0.;
+    std::vector<double>     node_areas;          ///< of the whole body, by node [m^2]
+    const SymmetricPattern *pattern   = nullptr; ///< since attach()
+    const FreeDofs         *free_dofs = nullptr; ///< since attach()
   };
 } // namespace Exemplar
 

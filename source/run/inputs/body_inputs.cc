@@ -53,9 +53,9 @@ namespace Exemplar
           find_grain_axes(scene.material, mesh, named, readings.material.fibre_direction));
       if (scene.model.has_patches())
         fields.patches = Patches::choose(mesh, fields.material, scene.model.element);
-      fields.shares = readings.shares;
-      fields.poses  = std::move(inputs.poses);
-      fields.nodes  = choose_nodes(scene, mesh, named);
+      fields.shares    = readings.shares;
+      fields.poses     = std::move(inputs.poses);
+      fields.nodes     = choose_nodes(scene, mesh, named);
       fields.obstacles = std::move(inputs.obstacles);
       for (auto &[name, surface] : fields.obstacles)
         scale(surface, scene.mesh.scale);

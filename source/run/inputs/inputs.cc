@@ -181,7 +181,7 @@ namespace Exemplar
                            require_file(file, "a surface: an .obj, .ply or .stl file");
                            const SurfaceMesh     mesh    = read_surface(file);
                            const TriangleSurface surface = triangulate(mesh);
-                           ObstacleSurface       result{ surface.vertices, surface.triangles, {}, {} };
+                           ObstacleSurface result{ surface.vertices, surface.triangles, {}, {} };
                            if (obstacle.follow_cache.empty())
                              return result;
                            const auto cache = open_point_cache(

@@ -66,7 +66,7 @@ namespace Exemplar
       for (const auto &[text, nodes] : whole.nodes)
         own.nodes[text] = places_among(vertices, nodes);
       own.obstacles = whole.obstacles;
-      own.support = whole.support;
+      own.support   = whole.support;
       return own;
     }
   } // namespace

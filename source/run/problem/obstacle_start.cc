@@ -48,17 +48,17 @@ namespace Exemplar
         const Clearance first = look();
         if (first.least > outside_touch * diameter && !first.is_crossed)
           return "";
-        const double least  = part_of_width * obstacles.width;
-        const double most   = inside_touch * diameter + least;
+        const double least    = part_of_width * obstacles.width;
+        const double most     = inside_touch * diameter + least;
         const bool   is_solid = obstacle.shape().half_sizes || obstacle.shape().is_surface();
-        double       by     = least - first.least;
+        double       by       = least - first.least;
         if (!is_solid && (first.is_crossed || by > most))
           refuse(first);
         if (is_solid)
           by = least_set_back(first, most);
         obstacle.set_back(by, first.outwards);
-        return fmt::format("Obstacles/{} touches the body near {} m: it is set back by {} m", obstacle.name(),
-                           text_of(first.place), short_text(by));
+        return fmt::format("Obstacles/{} touches the body near {} m: it is set back by {} m",
+                           obstacle.name(), text_of(first.place), short_text(by));
       }
 
       /// Let pairs that are near keep their distances as widths.
@@ -67,7 +67,7 @@ namespace Exemplar
       {
         StandingObstacle standing(obstacle);
         standing.move_to(0.);
-        auto &widths = obstacles.start_widths[number];
+        auto                                   &widths = obstacles.start_widths[number];
         std::vector<std::pair<PairKey, double>> found;
         ContactSearch(surface, obstacles, standing, number)
             .visit_near(positions, obstacles.width,
@@ -105,9 +105,10 @@ namespace Exemplar
         if (first.outwards.norm() == 0. || !is_enough(most))
           refuse(first);
         double low = 0., high = most;
-        for (unsigned int halving = 0; halving < max_halvings && high - low > 1e-3 * least; ++halving)
+        for (unsigned int halving = 0; halving < max_halvings && high - low > 1e-3 * least;
+             ++halving)
         {
-          const double middle = 0.5 * (low + high);
+          const double middle              = 0.5 * (low + high);
           (is_enough(middle) ? high : low) = middle;
         }
         return high;
@@ -116,8 +117,8 @@ namespace Exemplar
       [[noreturn]] void
       refuse(const Clearance &first) const
       {
-        const std::string what = "The body begins inside of Obstacles/" + obstacle.name() + ", near "
-                                 + text_of(first.place) + " m";
+        const std::string what = "The body begins inside of Obstacles/" + obstacle.name()
+                                 + ", near " + text_of(first.place) + " m";
         if (first.is_crossed)
           throw UserError(what
                           + ". Move the obstacle (Shape), or the body (Initial/Pose), so that "
@@ -140,9 +141,10 @@ namespace Exemplar
         const double depth = -first.least;
         if (way.norm() > 0.)
           way *= 1.001 * depth / way.norm();
-        throw UserError(fmt::format("{}, {} m deep. A displacement of the body by {} m would mend it, or one of "
-                                    "the obstacle by the opposite.",
-                                    what, short_text(depth), text_of(way)));
+        throw UserError(fmt::format(
+            "{}, {} m deep. A displacement of the body by {} m would mend it, or one of "
+            "the obstacle by the opposite.",
+            what, short_text(depth), text_of(way)));
       }
 
       Obstacles            &obstacles;
@@ -166,16 +168,17 @@ namespace Exemplar
         const double begin = axis.time(step - 1), end = axis.time(step);
         if (!obstacle.is_there(begin))
           continue;
-        double               way      = (obstacle.pose(end).place - obstacle.pose(begin).place).norm();
-        const bool           deforms  = obstacle.deforms();
-        const auto           before   = deforms ? obstacle.vertices(begin) : std::vector<SpaceVector3>();
-        const auto           after    = deforms ? obstacle.vertices(end) : before;
+        double     way     = (obstacle.pose(end).place - obstacle.pose(begin).place).norm();
+        const bool deforms = obstacle.deforms();
+        const auto before  = deforms ? obstacle.vertices(begin) : std::vector<SpaceVector3>();
+        const auto after   = deforms ? obstacle.vertices(end) : before;
         for (std::size_t v = 0; v < before.size(); ++v)
           way = std::max(way, (after[v] - before[v]).norm());
         if (way > greatest * body.mesh.diameter())
           throw UserError(fmt::format(
               "Obstacles/{} goes {} m in the step to t = {} s, more than a quarter of the body's "
-              "diameter of {} m. Take smaller steps (Time/Step or Time/Increments), or a slower {}.",
+              "diameter of {} m. Take smaller steps (Time/Step or Time/Increments), or a slower "
+              "{}.",
               obstacle.name(), short_text(way), shortest_text(end),
               short_text(body.mesh.diameter()), deforms ? "cache" : "Motion"));
       }

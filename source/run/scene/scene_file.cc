@@ -203,8 +203,9 @@ namespace Exemplar
                    "Names of dead forces, separated by commas; each has a subsection.");
     keys.leave_subsection();
     keys.enter_subsection("Obstacles");
-    keys.add_names("Names", obstacle_names,
-                   "Names of what the body may not pass, separated by commas; each has a subsection.");
+    keys.add_names(
+        "Names", obstacle_names,
+        "Names of what the body may not pass, separated by commas; each has a subsection.");
     parameters.obstacles.declare(keys);
     keys.leave_subsection();
     parameters.initial.declare(keys);
@@ -281,8 +282,8 @@ namespace Exemplar
   {
     SceneFile samples;
     samples.declare_sections();
-    samples.handle_names = { "NAME" };
-    samples.load_names   = { "NAME" };
+    samples.handle_names   = { "NAME" };
+    samples.load_names     = { "NAME" };
     samples.obstacle_names = { "NAME" };
     samples.declare_named_subsections({ { { "Material", "region 1" }, "", "", "" } });
     return samples.get_keys();

@@ -167,23 +167,27 @@ namespace Exemplar
   CompleteScene::check_obstacles() const
   {
     const std::string all = "Obstacles/Names lists what the body may not pass, but ";
-    refuse({ { scene == SceneKind::interpolation,
-               all + "an interpolation follows its prescribed weights. Set Scene = static, or leave "
-                     "Obstacles/Names empty." },
-             { model.is_frozen() || solver.method == Method::one_pass
-                   || solver.method == Method::fixed_point,
-               all
-                   + "Model/Gradient = frozen and Solver/Method = one pass or fixed point minimise no "
-                     "energy, so that nothing keeps it out. Set Model/Gradient = consistent and "
-                     "Solver/Method = auto, or leave Obstacles/Names empty." },
-             { solver.starts == Starts::examples,
-               all + "Solver/Starts = examples puts it anywhere. Set Solver/Starts = state." },
-             { output.space_error != SpaceErrorUse::never,
-               all + "Output/Space error compares with a body whose other nodes may be inside of "
-                     "them. Set Output/Space error = false." },
-             { loads.balanced,
-               all + "Loads/Balanced = true lets handles bear it. Set Loads/Balanced = false, or leave "
-                     "Obstacles/Names empty." } });
+    refuse(
+        { { scene == SceneKind::interpolation,
+            all
+                + "an interpolation follows its prescribed weights. Set Scene = static, or leave "
+                  "Obstacles/Names empty." },
+          { model.is_frozen() || solver.method == Method::one_pass
+                || solver.method == Method::fixed_point,
+            all
+                + "Model/Gradient = frozen and Solver/Method = one pass or fixed point minimise no "
+                  "energy, so that nothing keeps it out. Set Model/Gradient = consistent and "
+                  "Solver/Method = auto, or leave Obstacles/Names empty." },
+          { solver.starts == Starts::examples,
+            all + "Solver/Starts = examples puts it anywhere. Set Solver/Starts = state." },
+          { output.space_error != SpaceErrorUse::never,
+            all
+                + "Output/Space error compares with a body whose other nodes may be inside of "
+                  "them. Set Output/Space error = false." },
+          { loads.balanced, all
+                                + "Loads/Balanced = true lets handles bear it. Set Loads/Balanced "
+                                  "= false, or leave "
+                                  "Obstacles/Names empty." } });
     obstacles.check();
   }
 

@@ -69,14 +69,18 @@ namespace Exemplar::Testing
     for (unsigned int n = 0; n < 2000; ++n)
     {
       const std::array<SpaceVector3, 3> x{ { place(), place(), place() } };
-      const SpaceVector3                p  = place();
-      const Nearest                     at = nearest(x, p);
-      const double                      expected
-          = least([&](const double s) { return least([&](const double t) {
-                    return (x[0] + s * (x[1] - x[0] + t * (x[2] - x[1])) - p).norm(); }); });
+      const SpaceVector3                p        = place();
+      const Nearest                     at       = nearest(x, p);
+      const double                      expected = least(
+          [&](const double s)
+          {
+            return least([&](const double t)
+                         { return (x[0] + s * (x[1] - x[0] + t * (x[2] - x[1])) - p).norm(); });
+          });
       EXPECT_NEAR(at.way.norm(), expected, 1e-7) << n;
       expect_sums(at);
-      EXPECT_NEAR((at.a[0] * x[0] + at.a[1] * x[1] + at.a[2] * x[2] - p - at.way).norm(), 0., 1e-12);
+      EXPECT_NEAR((at.a[0] * x[0] + at.a[1] * x[1] + at.a[2] * x[2] - p - at.way).norm(), 0.,
+                  1e-12);
     }
   }
 
@@ -88,10 +92,13 @@ namespace Exemplar::Testing
       std::array<SpaceVector3, 2> x{ { place(), place() } }, q{ { place(), place() } };
       if (n % 5 == 0) // parallel
         q[1] = q[0] + (n % 2 == 0 ? 0.7 : -2.) * (x[1] - x[0]);
-      const Nearest at = nearest(x, q);
-      const double  expected
-          = least([&](const double s) { return least([&](const double t) {
-                    return (x[0] + s * (x[1] - x[0]) - q[0] - t * (q[1] - q[0])).norm(); }); });
+      const Nearest at       = nearest(x, q);
+      const double  expected = least(
+          [&](const double s)
+          {
+            return least([&](const double t)
+                         { return (x[0] + s * (x[1] - x[0]) - q[0] - t * (q[1] - q[0])).norm(); });
+          });
       EXPECT_NEAR(at.way.norm(), expected, 1e-7) << n;
       expect_sums(at);
     }
@@ -100,7 +107,8 @@ namespace Exemplar::Testing
   TEST(ClosestFeatures, FlatTrianglesAreTheirEdges)
   {
     const SpaceVector3 o;
-    const Nearest at = nearest({ { o, vector(1., 0., 0.), vector(3., 0., 0.) } }, vector(2., 1., 0.));
+    const Nearest      at
+        = nearest({ { o, vector(1., 0., 0.), vector(3., 0., 0.) } }, vector(2., 1., 0.));
     EXPECT_DOUBLE_EQ(at.way.norm(), 1.);
     EXPECT_DOUBLE_EQ(nearest({ { o, o, o } }, vector(0., 0., 2.)).way.norm(), 2.);
   }

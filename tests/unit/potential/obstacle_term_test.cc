@@ -35,17 +35,15 @@ namespace Exemplar::Testing
   namespace
   {
     /// A bar in |y|, |z| <= .5 above an obstacle that pushes from 0.2 m on, which reaches to z = -.75 at most.
-    const std::string bar_above
-        = "set Scene = dynamic\n" + bar
-          + "subsection Obstacles\n set Names = it\n set Distance = 0.2\n set Slip speed = 1\n subsection it\n"
-            "set Friction = 0.5\n end\nend\n";
+    const std::string bar_above = "set Scene = dynamic\n" + bar
+                                  + "subsection Obstacles\n set Names = it\n set Distance = 0.2\n "
+                                    "set Slip speed = 1\n subsection it\n"
+                                    "set Friction = 0.5\n end\nend\n";
 
-    const std::vector<std::string> shapes = { "plane 0 0 -0.75  0.1 0.2 1",
-                                              "sphere 2.1 0.1 -1.45 0.7",
-                                              "capsule 1 0.2 -1.2 3 0.25 -1.25 0.4",
-                                              "capsule 1 0 -1.2 3 0 -1.2 0.4",
-                                              "box 1.2 -0.3 -2 2.7 1 -0.75",
-                                              "inside box -3 -3 -0.75 7 3 3" };
+    const std::vector<std::string> shapes
+        = { "plane 0 0 -0.75  0.1 0.2 1",          "sphere 2.1 0.1 -1.45 0.7",
+            "capsule 1 0.2 -1.2 3 0.25 -1.25 0.4", "capsule 1 0 -1.2 3 0 -1.2 0.4",
+            "box 1.2 -0.3 -2 2.7 1 -0.75",         "inside box -3 -3 -0.75 7 3 3" };
 
     struct Above
     {
@@ -155,8 +153,8 @@ namespace Exemplar::Testing
   {
     // the body's forces on a sphere go through its middle
     const Above  above("sphere 2.1 0.1 -1.45 0.7");
-    const Vector x     = above.lowered(0.15, 4);
-    const auto   all   = above.term->contacts(x);
+    const Vector x   = above.lowered(0.15, 4);
+    const auto   all = above.term->contacts(x);
     ASSERT_FALSE(all.empty());
     for (const Contact &contact : all)
     {
@@ -226,7 +224,8 @@ namespace Exemplar::Testing
       }
       return "";
     };
-    expect_contains(message("plane 0 0 0 0 0 1"), "0.5 m deep. A displacement of the body by (0, 0, 0.5");
+    expect_contains(message("plane 0 0 0 0 0 1"),
+                    "0.5 m deep. A displacement of the body by (0, 0, 0.5");
     expect_contains(message("box 1 -0.2 -0.2 2 0.2 0.2"), "begins inside");
     expect_contains(message("box -1 -3 -3 7 3 3"), "begins inside");
     expect_contains(message("sphere 2 0 0 0.1"), "begins inside");

@@ -36,7 +36,7 @@ namespace Exemplar
     NamedMaps                   maps    = {}; ///< on the surface's vertices, by FILE:ATTRIBUTE
     /// The caches of Follow cache, by handle names. Sequences of files keep a reference to the
     /// surface.
-    std::map<std::string, std::shared_ptr<const PointCache>> caches = {};
+    std::map<std::string, std::shared_ptr<const PointCache>> caches    = {};
     ObstacleSurfaces                                         obstacles = {};
     /// Report on meshes and poses made of surfaces; null if none were.
     std::shared_ptr<const MadeOfSurfaces> made = {};

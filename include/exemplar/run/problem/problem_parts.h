@@ -8,9 +8,9 @@
 #include <exemplar/body/mass.h>
 #include <exemplar/body/supports.h>
 #include <exemplar/body/time_integrator.h>
-#include <exemplar/potential/incremental_potential.h>
 #include <exemplar/obstacles/contact_surface.h>
 #include <exemplar/obstacles/obstacles.h>
+#include <exemplar/potential/incremental_potential.h>
 #include <exemplar/potential/initial_stress_term.h>
 #include <exemplar/run/inputs/body_inputs.h>
 #include <exemplar/run/problem/example_start.h>
@@ -147,8 +147,8 @@ namespace Exemplar
     make_terms(const Body &body, const TimeIntegrator *integrator_of_terms) const;
 
     std::unique_ptr<Loads>                loads;
-    const std::unique_ptr<Mass>           mass;             ///< in dynamic scenes
-    const std::unique_ptr<TimeIntegrator> integrator;       ///< in dynamic scenes
+    const std::unique_ptr<Mass>           mass;       ///< in dynamic scenes
+    const std::unique_ptr<TimeIntegrator> integrator; ///< in dynamic scenes
     const std::unique_ptr<Obstacles>      obstacles;
     const std::unique_ptr<ContactSurface> contact_surface;  ///< with obstacles
     PointStresses                         initial_stresses; ///< empty unless the body is balanced
