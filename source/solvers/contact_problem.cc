@@ -60,8 +60,9 @@ namespace Exemplar
           const ContactForces step    = newton_step();
           const double        longest = gaps.longest_part(at.changes, step.changes);
           // so near the slope along the step is lost in rounding
-          const bool is_last = longest >= 1. && at.part == 1.
-                               && max_entry(step.forces) <= tolerance * max_entry(at.forces);
+          const double enough  = tolerance * max_entry(at.forces);
+          const bool   is_last = longest >= 1. && at.part == 1. && max_entry(step.forces) <= enough
+                               && unbalanced() <= enough;
           go(is_last ? 1. : length_along(step, longest), step);
           if (is_last || at.iterations == max_iterations)
             return at;
@@ -72,7 +73,7 @@ namespace Exemplar
       static constexpr unsigned int max_iterations = 100;
       static constexpr unsigned int max_halvings   = 20;
       static constexpr double       tolerance
-          = 1e-5; ///< of the change of forces; their error is its square
+          = 1e-3; ///< of forces before the last step; their error is its square
       static constexpr double max_slope = 0.1; ///< that a line search leaves of the first
 
       /// To where the function with B as a quadratic one has its minimum. With S S = B'' and e the change of the
@@ -102,6 +103,15 @@ namespace Exemplar
         step.forces = std::move(forces);
         step.part   = 1. - at.part;
         return step;
+      }
+
+      /// The greatest force that is not that of its gap.
+      double
+      unbalanced() const
+      {
+        std::vector<double> rest = at.forces;
+        add(rest, 1., slopes);
+        return max_entry(rest);
       }
 
       double

@@ -13,19 +13,21 @@ import math
 import pathlib
 import random
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
 
 import numpy as np
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
+from exemplar_runner import read_vtu
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 class Body:
     def __init__(self, name, mesh, size, low):
-        self.name, self.mesh, self.size, self.low = name, mesh, size, np.array(low)
+        self.name, self.mesh, self.size, self.low = name, mesh, size, None if low is None else np.array(low)
 
 
 def bodies(rng):
@@ -34,7 +36,7 @@ def bodies(rng):
     return rng.choices([
         Body("bar", bar, 0.85, (0, -.1, -.1)),
         Body("cat", {"Mesh/File": str(ROOT / "meshes/cat.msh")}, 1.6, None),
-        Body("horse", {"Mesh/File": str(ROOT / "meshes/horse.msh")}, 1.6, None)], [8, 2, 1])[0]
+        Body("horse", {"Mesh/File": str(ROOT / "meshes/horse.msh")}, 1.6, None)], [14, 2, 1])[0]
 
 
 def bounds_of(body):
@@ -64,11 +66,11 @@ def obstacle(rng, low, high, toward, gap, directory):
         n /= np.linalg.norm(n)
         # the furthest corner of the body's box along -n
         at = centre - n * (np.abs(n) @ half + gap)
-        return f"plane {words(at, n)}", lambda x, t: -np.min((x - at) @ n)
+        return f"plane {words(at, n)}", lambda x, t: -np.min((x[t] - at) @ n)
     if kind == "inside box":
         margin = gap + half * rng.uniform(.05, 1.)
         lo, hi = low - margin, high + margin
-        return f"inside box {words(lo, hi)}", lambda x, t: -min(np.min(x - lo), np.min(hi - x))
+        return f"inside box {words(lo, hi)}", lambda x, t: -min(np.min(x[t] - lo), np.min(hi - x[t]))
     if kind == "sphere":
         r = reach * 10 ** rng.uniform(-1, .5)
         c = ahead + toward * r
@@ -142,18 +144,20 @@ def triangles_meet_box(triangles, lo, hi):
 
 
 def frames(directory):
-    data = (directory / "animation.mdd").read_bytes()
-    n_frames, n = struct.unpack(">ii", data[:8])
-    return np.frombuffer(data, ">f4", offset=8 + 4 * n_frames, count=3 * n * n_frames).astype(float).reshape(n_frames, n, 3)
-
-
-def triangles_of(obj):
-    faces = []
-    for line in open(obj):
-        if line.startswith("f "):
-            f = [int(w.split("/")[0]) - 1 for w in line.split()[1:]]
-            faces += [(f[0], f[i], f[i + 1]) for i in range(1, len(f) - 1)]
-    return np.array(faces)
+    """Positions of each frame, and the triangles of the body's surface: faces that one tetrahedron has alone."""
+    triangles = None
+    for file in sorted(directory.glob("frame_*.vtu")):
+        arrays, n_points, n_cells = read_vtu(file)
+        points = np.array(next(v for (section, _), v in arrays.items() if section == "Points")).reshape(n_points, 3)
+        if triangles is None:
+            cells = np.array(arrays["Cells", "connectivity"]).reshape(n_cells, 4)
+            faces = {}
+            for cell in cells:
+                for i in range(4):
+                    face = tuple(cell[[j for j in range(4) if j != i]])
+                    faces.setdefault(tuple(sorted(face)), []).append(face)
+            triangles = np.array([own[0] for own in faces.values() if len(own) == 1])
+        yield points, triangles
 
 
 def scene(number, seed, directory):
@@ -179,7 +183,7 @@ def scene(number, seed, directory):
     velocity = "; ".join(f"{v[i]:.9g}+({spin[(i+1)%3]:.9g})*{r[(i+2)%3]}-({spin[(i+2)%3]:.9g})*{r[(i+1)%3]}" for i in range(3))
     keys = {**body.mesh, "Scene": "dynamic", "Material/Young's modulus": f"{young:.6g}", "Material/Poisson's ratio": "0.4",
             "Material/Density": "1000", "Initial/Velocity": velocity, "Loads/Gravity": "0, 0, -9.81",
-            "Time/Step": f"{step:.6g}", "Time/End": f"{step * steps:.9g}", "Output/Formats": "mdd",
+            "Time/Step": f"{step:.6g}", "Time/End": f"{step * steps:.9g}", "Output/Formats": "vtu",
             "Solver/Maximum iterations": "400", "Obstacles/Names": "thing", "Obstacles/thing/Shape": shape,
             "Obstacles/thing/Friction": f"{rng.choice([0, 0, .1, .5, 1.]):g}"}
     name = f"{body.name} E {young:.1e} v {speed:.2g} h {step:.1e} {shape.split()[0]} mu {keys['Obstacles/thing/Friction']}"
@@ -195,7 +199,7 @@ def write(keys, file):
 
 
 def run(number, arguments):
-    directory = pathlib.Path(tempfile.mkdtemp(prefix=f"drop{number}_", dir=arguments.directory))
+    directory = pathlib.Path(tempfile.mkdtemp(prefix=f"drop{number}_", dir=arguments.directory and pathlib.Path(arguments.directory).resolve()))
     name, keys, depth = scene(number, arguments.seed, directory)
     write(keys, directory / "scene.prm")
     try:
@@ -204,11 +208,9 @@ def run(number, arguments):
         status, text = done.returncode, done.stderr.strip()
     except subprocess.TimeoutExpired:
         status, text = "timeout", ""
-    deepest, iterations = -math.inf, 0
-    if (directory / "out/animation.mdd").exists() and (directory / "out/rest.obj").exists():
-        triangles = triangles_of(directory / "out/rest.obj")
-        for positions in frames(directory / "out"):
-            deepest = max(deepest, depth(positions, triangles))
+    deepest = -math.inf
+    for positions, triangles in frames(directory / "out"):
+        deepest = max(deepest, depth(positions, triangles))
     bad = status != 0 or deepest > 0
     if not bad or not arguments.keep:
         shutil.rmtree(directory)

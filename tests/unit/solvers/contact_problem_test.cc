@@ -193,12 +193,12 @@ namespace Exemplar::Testing
           const SmallContact        body(6, 8, friction, push);
           unsigned int              iterations = 0;
           const std::vector<double> u          = body.solve_in_forces(iterations);
-          EXPECT_LT(max_entry(body.gradient(u)), 1e-6 * body.greatest_force(u));
+          EXPECT_LT(max_entry(body.gradient(u)), 1e-5 * body.greatest_force(u));
           EXPECT_LE(iterations, 40u);
           const double least        = body.energy(u),
                        of_gradients = body.energy(body.solve_by_gradients());
           EXPECT_LT(least, body.energy(std::vector<double>(u.size())));
-          EXPECT_NEAR(of_gradients, least, 1e-3 * std::abs(least));
+          EXPECT_NEAR(of_gradients, least, 3e-3 * std::abs(least));
         }
     }
 
@@ -209,7 +209,7 @@ namespace Exemplar::Testing
       EXPECT_EQ(rank(W, 1e-9), 6u);
       unsigned int              iterations = 0;
       const std::vector<double> u          = body.solve_in_forces(iterations);
-      EXPECT_LT(max_entry(body.gradient(u)), 1e-6 * body.greatest_force(u));
+      EXPECT_LT(max_entry(body.gradient(u)), 1e-5 * body.greatest_force(u));
       EXPECT_LE(iterations, 40u);
     }
   } // namespace
