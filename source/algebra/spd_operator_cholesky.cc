@@ -132,7 +132,7 @@ namespace Exemplar
         if (!factor)
           throw indefinite_matrix(); // the last factorisation has failed
         auto rounded = std::make_shared<MultifrontalFactor<float>>(structure, threads_at_work());
-        rounded->assign(factor->get_values());
+        rounded->assign(*factor);
         return std::make_unique<SinglePrecisionInverse>(std::move(rounded));
       }
 
@@ -173,7 +173,7 @@ namespace Exemplar
         for (unsigned int k = 0;; ++k)
         {
           std::vector<double> step = residual;
-          apply_in_single_precision(*rough_factor, step);
+          rough_factor->solve(step);
           add(columns, 1., step);
           if (k == n_refinements)
             return;

@@ -32,9 +32,9 @@ namespace Exemplar
     double
     seconds_of(const Work &work)
     {
-      int          n        = 0;
-      double       seconds  = 0.;
-      const double begin    = seconds_on(CLOCK_THREAD_CPUTIME_ID);
+      int          n       = 0;
+      double       seconds = 0.;
+      const double begin   = seconds_on(CLOCK_THREAD_CPUTIME_ID);
       do
       {
         work();
@@ -104,14 +104,14 @@ namespace Exemplar
         Product                   product;
         std::uint64_t             read_sum = 0;
         std::vector<double>       of_factor, of_solve, of_seven, of_reading, of_product;
-        std::vector<float>        column(structure->n()), seven(7 * structure->n());
+        std::vector<double>       column(structure->n()), seven(7 * structure->n());
         for (int round = 0; round < n_rounds; ++round)
         {
           of_factor.push_back(seconds_of([&] { is_definite = factor.factorize(values); }));
           of_solve.push_back(seconds_of(
               [&]
               {
-                std::fill(column.begin(), column.end(), 1.F);
+                std::fill(column.begin(), column.end(), 1.);
                 factor.solve(column);
               }));
           of_reading.push_back(
@@ -119,7 +119,7 @@ namespace Exemplar
           of_seven.push_back(seconds_of(
               [&]
               {
-                std::fill(seven.begin(), seven.end(), 1.F);
+                std::fill(seven.begin(), seven.end(), 1.);
                 factor.solve(seven);
               }));
           of_product.push_back(seconds_of([&] { product.multiply(); }));
@@ -169,7 +169,8 @@ main(int argc, char *argv[])
   }
   try
   {
-    std::cout << Exemplar::Measurement(argv[1], { argv + 2, argv + argc }).run().dump(2) << std::endl;
+    std::cout << Exemplar::Measurement(argv[1], { argv + 2, argv + argc }).run().dump(2)
+              << std::endl;
     return 0;
   }
   catch (const std::exception &error)
