@@ -23,6 +23,18 @@ namespace Exemplar
   }
 
   void
+  CholmodCommon::join_more_supernodes()
+  {
+    // up to so many columns are joined if at most this share of their entries are zeros
+    common.nrelax[0] = 16; // always
+    common.nrelax[1] = 32;
+    common.zrelax[0] = 0.8;
+    common.nrelax[2] = 96;
+    common.zrelax[1] = 0.15;
+    common.zrelax[2] = 0.05; // any
+  }
+
+  void
   CholmodCommon::check(const std::string &what) const
   {
     if (common.status == CHOLMOD_NOT_POSDEF)

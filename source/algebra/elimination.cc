@@ -3,6 +3,7 @@
 #include <exemplar/base/loop_parts.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace Exemplar
 {
@@ -97,7 +98,7 @@ namespace Exemplar
   Elimination<Number>::gather_entries(const int s)
   {
     Number *to = panels + structure.first_value[s];
-    std::fill(to, panels + structure.first_value[s + 1], Number(0.));
+    std::memset(to, 0, sizeof(Number) * (structure.first_value[s + 1] - structure.first_value[s]));
     for (std::size_t e = structure.first_entries[s]; e < structure.first_entries[s + 1]; ++e)
     {
       const auto [begin, place, stride, number] = structure.entries[e];

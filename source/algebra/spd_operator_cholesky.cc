@@ -17,7 +17,8 @@ namespace Exemplar
     std::shared_ptr<const FactorStructure>
     analyzed(const SymmetricPattern &pattern, const std::vector<int> &order = {})
     {
-      CholmodCommon   common;
+      CholmodCommon common;
+      common.join_more_supernodes();
       cholmod_factor *factor = analyze(pattern, common, order);
       FactorStructure result = factor_structure(pattern, *factor, common);
       cholmod_free_factor(&factor, &common);

@@ -5,6 +5,8 @@
 #include <exemplar/algebra/front_kernels.h>
 
 #include <algorithm>
+#include <cstring>
+#include <utility>
 
 namespace Exemplar
 {
@@ -21,6 +23,8 @@ namespace Exemplar
                                      : in_slab <= 2 && n == 1 ? 2
                                                               : 1; ///< slabs
     static constexpr int max_width = PanelBlock::max_width;
+    /// So far ahead what will be read is fetched from memory.
+    static constexpr std::ptrdiff_t ahead = 8192 / sizeof(Number);
 
     /// Numbers by column of a block, for each right side.
     struct alignas(64) Own
@@ -48,6 +52,7 @@ namespace Exemplar
             part[p][r][c] = Batch(Number(0.));
       const auto add = [&](const int p, const int k)
       {
+        __builtin_prefetch(A + k * stride + ahead);
         for (int r = 0; r < slabs * in_slab; ++r)
         {
           const Batch a = Batch::load_unaligned(A + r / in_slab * slab_stride + r % in_slab * width
@@ -103,6 +108,7 @@ namespace Exemplar
           rows[c][r] = Batch::load_unaligned(x + c * v.stride + r * width);
       for (int k = 0; k < n_columns; ++k, A += stride, sums += n * width)
       {
+        __builtin_prefetch(A - ahead);
         Batch sum[n];
         for (int c = 0; c < n; ++c)
           sum[c] = Batch::load_aligned(sums + c * width);
@@ -119,14 +125,34 @@ namespace Exemplar
       }
     }
 
-    static Number
-    sum_of_lanes(const Batch &batch)
+    /// Lane by lane: a[l] + a[l ^ h] where the bit h of l is 0, otherwise b[l] + b[l ^ h].
+    template <int h, std::size_t... l>
+    static Batch
+    fold(const Batch &a, const Batch &b, std::index_sequence<l...>)
     {
-#if XSIMD_VERSION_MAJOR < 9
-      return xsimd::hadd(batch);
-#else
-      return xsimd::reduce_add(batch);
-#endif
+      using Register [[gnu::vector_size(sizeof(Number) * width)]] = Number;
+      Register of_a, of_b;
+      std::memcpy(&of_a, &a, sizeof of_a);
+      std::memcpy(&of_b, &b, sizeof of_b);
+      const Register sum
+          = __builtin_shufflevector(of_a, of_b, (l & h ? l + width : l)...)
+            + __builtin_shufflevector(of_a, of_b, (l & h ? (l ^ h) + width : l ^ h)...);
+      Batch result;
+      std::memcpy(&result, &sum, sizeof sum);
+      return result;
+    }
+
+    /// The sums of the lanes of as many batches as a batch has lanes, `stride` apart: that of batch l is lane l.
+    template <int h = 1>
+    static Batch
+    sums_of_lanes(const Number *batches, const int stride)
+    {
+      if constexpr (h == width)
+        return Batch::load_aligned(batches);
+      else
+        return fold<h>(sums_of_lanes<2 * h>(batches, stride),
+                       sums_of_lanes<2 * h>(batches + h * stride, stride),
+                       std::make_index_sequence<width>());
     }
 
     /// The product of a triangle with x, one slab of rows after the other.
@@ -179,6 +205,8 @@ namespace Exemplar
                          own, below + i, v);
       };
       by(subtract<at_once>, at_once);
+      if constexpr (at_once == 4)
+        by(subtract<2>, 2);
       by(subtract<1>, 1);
       if (i < block.n_below) // what this changes behind the last row is unused
         subtract<1>(A + static_cast<std::ptrdiff_t>(i) * block.width, block.n_below - i,
@@ -189,7 +217,7 @@ namespace Exemplar
     backward_block(const PanelBlock &block, const Number *panel, Number *x, const Vectors &v)
     {
       alignas(64) Number sums[max_width * n * width];
-      std::fill(sums, sums + block.width * n * width, Number(0.));
+      std::fill(sums, sums + (block.width + width - 1) / width * width * n * width, Number(0.));
       const Number *A     = panel + block.below();
       Number       *below = x + block.column + block.width;
       // in the order of memory, backwards
@@ -197,21 +225,24 @@ namespace Exemplar
       const auto at = [&] { return A + static_cast<std::ptrdiff_t>(i) * block.width; };
       if (i < block.n_below) // the vector is zero behind the last row
         add_products<1>(at(), block.n_below - i, block.width, below + i, v, sums);
-      while (i % (at_once * slab_rows) != 0)
+      const auto by = [&](auto add_slabs, const int slabs, const int multiple)
       {
-        i -= slab_rows;
-        add_products<1>(at(), slab_rows, block.width, below + i, v, sums);
-      }
-      while (i > 0)
-      {
-        i -= at_once * slab_rows;
-        add_products<at_once>(at(), slab_rows, block.width, below + i, v, sums);
-      }
+        while (i % (multiple * slab_rows) != 0 || (multiple == slabs && i > 0))
+        {
+          i -= slabs * slab_rows;
+          add_slabs(at(), slab_rows, block.width, below + i, v, sums);
+        }
+      };
+      by(add_products<1>, 1, at_once == 4 ? 2 : at_once);
+      if constexpr (at_once == 4)
+        by(add_products<2>, 2, 4);
+      by(add_products<at_once>, at_once, at_once);
       Own own;
-      for (int k = 0; k < block.width; ++k)
+      for (int k = 0; k < block.width; k += width)
         for (int c = 0; c < n; ++c)
-          own.of[c][k] = x[c * v.stride + block.column + k]
-                         - sum_of_lanes(Batch::load_aligned(sums + (k * n + c) * width));
+          (Batch::load_unaligned(x + c * v.stride + block.column + k)
+           - sums_of_lanes(sums + (k * n + c) * width, n * width))
+              .store_aligned(own.of[c] + k);
       multiply_triangle(panel + block.upper(), false, block, own, x + block.column, v);
     }
 
