@@ -48,6 +48,7 @@ namespace Exemplar
     std::uint64_t
     read(const std::vector<float> &numbers)
     {
+      asm volatile("" ::: "memory"); // or two readings would be compiled to one
       std::uint64_t sum[8] = {};
       for (std::size_t i = 0; i + 16 <= numbers.size(); i += 16)
         for (int k = 0; k < 8; ++k)
