@@ -23,6 +23,18 @@ namespace Exemplar
   }
 
   void
+  CholmodCommon::join_more_supernodes()
+  {
+    // up to so many columns are joined if at most this share of their entries are zeros
+    common.nrelax[0] = 16; // always
+    common.nrelax[1] = 32;
+    common.zrelax[0] = 0.8;
+    common.nrelax[2] = 96;
+    common.zrelax[1] = 0.15;
+    common.zrelax[2] = 0.05; // any
+  }
+
+  void
   CholmodCommon::check(const std::string &what) const
   {
     if (common.status == CHOLMOD_NOT_POSDEF)
@@ -89,76 +101,146 @@ namespace Exemplar
     }
 
     void
-    find_parents(FactorStructure &structure)
+    find_parents(FactorStructure &structure, const int *rows)
     {
       structure.parent.assign(structure.first_column.size() - 1, -1);
       const std::vector<int> supernode_of = supernodes(structure);
       for (int s = 0; s < structure.n_supernodes(); ++s)
         if (structure.n_rows(s) > structure.n_columns(s))
-          structure.parent[s]
-              = supernode_of[structure.rows[structure.first_row[s] + structure.n_columns(s)]];
+          structure.parent[s] = supernode_of[rows[structure.first_row[s] + structure.n_columns(s)]];
+      structure.children.resize(structure.n_supernodes());
+      for (int s = 0; s < structure.n_supernodes(); ++s)
+        if (structure.parent[s] >= 0)
+          structure.children[structure.parent[s]].push_back(s);
     }
 
     /// Set place_of[row] to the position of each row of a supernode in its panel.
     void
-    mark_rows(const FactorStructure &structure, const int s, std::vector<int> &place_of)
+    mark_rows(const FactorStructure &structure,
+              const int             *rows,
+              const int              s,
+              std::vector<int>      &place_of)
     {
       for (int i = 0; i < structure.n_rows(s); ++i)
-        place_of[structure.rows[structure.first_row[s] + i]] = i;
+        place_of[rows[structure.first_row[s] + i]] = i;
     }
 
     void
-    find_places_in_parents(FactorStructure &structure)
+    find_places_in_parents(FactorStructure &structure, const int *rows)
     {
-      std::vector<std::vector<int>> children(structure.n_supernodes());
-      for (int s = 0; s < structure.n_supernodes(); ++s)
-        if (structure.parent[s] >= 0)
-          children[structure.parent[s]].push_back(s);
       std::vector<int> place_of(structure.n());
-      structure.place_in_parent.resize(structure.rows.size());
+      structure.place_in_parent.resize(structure.first_row.back());
       for (int s = 0; s < structure.n_supernodes(); ++s)
       {
-        mark_rows(structure, s, place_of);
-        for (const int child : children[s])
+        mark_rows(structure, rows, s, place_of);
+        for (const int child : structure.children[s])
           for (std::size_t i = structure.first_row[child] + structure.n_columns(child);
                i < structure.first_row[child + 1]; ++i)
-            structure.place_in_parent[i] = place_of[structure.rows[i]];
+            structure.place_in_parent[i] = place_of[rows[i]];
       }
+    }
+
+    void
+    find_runs(FactorStructure &structure)
+    {
+      for (int s = 0; s < structure.n_supernodes(); ++s)
+      {
+        structure.first_run.push_back(structure.runs.size());
+        const std::size_t end = structure.first_row[s + 1];
+        for (std::size_t i = structure.first_row[s] + structure.n_columns(s); i < end;)
+        {
+          const std::size_t begin = i;
+          const int         place = structure.place_in_parent[i];
+          for (++i; i < end && i < begin + slab_rows
+                    && structure.place_in_parent[i] == place + static_cast<int>(i - begin);)
+            ++i;
+          structure.runs.push_back({ place, static_cast<int>(i - begin) });
+        }
+      }
+      structure.first_run.push_back(structure.runs.size());
+    }
+
+    void
+    find_panels(FactorStructure &structure)
+    {
+      structure.first_value = { 0 };
+      for (int s = 0; s < structure.n_supernodes(); ++s)
+      {
+        const int  n     = structure.n_columns(s);
+        PanelBlock block = PanelBlock::first(n, structure.n_rows(s));
+        while (block.column + block.width < n)
+          block = block.next();
+        structure.first_value.push_back(structure.first_value.back() + block.end());
+      }
+    }
+
+    /// Place of an entry of the lower triangle in its panel.
+    int
+    place_in_panel(const int n_columns, const int n_rows, const int row, const int column)
+    {
+      PanelBlock block = PanelBlock::first(n_columns, n_rows);
+      while (column >= block.column + block.width)
+        block = block.next();
+      const int k = column - block.column, i = row - block.column, below = i - block.width;
+      const int first = (below < 0 ? i : below) / slab_rows * slab_rows;
+      const int height
+          = below < 0 ? block.slab_height(first) : std::min(slab_rows, block.n_below - first);
+      const auto slab = below < 0 ? block.begin + PanelBlock::lower_slab(first)
+                                  : block.below() + static_cast<std::size_t>(first) * block.width;
+      return static_cast<int>(slab) + k * height + (below < 0 ? i : below) - first;
+    }
+
+    /// An entry of A becomes the next one of the last ones of this supernode, or the first of further ones.
+    void
+    add_entry(FactorStructure &structure, const int s, const int entry, const int place)
+    {
+      if (structure.entries.size() > structure.first_entries[s])
+        if (FactorStructure::Entries &last = structure.entries.back();
+            entry == last.begin + last.number
+            && (last.number == 1 || place == last.place + last.number * last.stride))
+        {
+          last.stride = (place - last.place) / last.number;
+          ++last.number;
+          return;
+        }
+      structure.entries.push_back({ entry, place, 0, 1 });
     }
 
     /// Sort the entries of A by supernode, by counting sort in two passes.
     void
-    find_entries(const SymmetricPattern &pattern, FactorStructure &structure)
+    find_entries(const SymmetricPattern &pattern, const int *rows, FactorStructure &structure)
     {
       const int              n            = structure.n();
       const std::vector<int> supernode_of = supernodes(structure);
       std::vector<int>       row_of(n), row(pattern.row.size()), column(pattern.row.size());
       for (int i = 0; i < n; ++i)
         row_of[structure.permutation[i]] = i;
-      structure.first_entry.assign(structure.n_supernodes() + 1, 0);
+      std::vector<std::size_t> first(structure.n_supernodes() + 1, 0);
       for (int j = 0; j < n; ++j)
         for (int k = pattern.column_start[j]; k < pattern.column_start[j + 1]; ++k)
         {
           row[k]    = std::max(row_of[pattern.row[k]], row_of[j]);
           column[k] = std::min(row_of[pattern.row[k]], row_of[j]);
-          ++structure.first_entry[supernode_of[column[k]] + 1];
+          ++first[supernode_of[column[k]] + 1];
         }
       for (int s = 0; s < structure.n_supernodes(); ++s)
-        structure.first_entry[s + 1] += structure.first_entry[s];
-      std::vector<std::size_t> next(structure.first_entry.begin(), structure.first_entry.end() - 1);
-      structure.entry.resize(pattern.row.size());
+        first[s + 1] += first[s];
+      std::vector<std::size_t> next(first.begin(), first.end() - 1);
+      std::vector<int>         entry(pattern.row.size()), place_of(n);
       for (std::size_t k = 0; k < row.size(); ++k)
-        structure.entry[next[supernode_of[column[k]]]++] = static_cast<int>(k);
-      std::vector<int> place_of(n);
-      structure.place.resize(pattern.row.size());
+        entry[next[supernode_of[column[k]]]++] = static_cast<int>(k);
       for (int s = 0; s < structure.n_supernodes(); ++s)
       {
-        mark_rows(structure, s, place_of);
-        for (std::size_t e = structure.first_entry[s]; e < structure.first_entry[s + 1]; ++e)
-          structure.place[e]
-              = (column[structure.entry[e]] - structure.first_column[s]) * structure.n_rows(s)
-                + place_of[row[structure.entry[e]]];
+        structure.first_entries.push_back(structure.entries.size());
+        mark_rows(structure, rows, s, place_of);
+        const int n_columns = structure.n_columns(s), n_rows = structure.n_rows(s);
+        for (std::size_t e = first[s]; e < first[s + 1]; ++e)
+          add_entry(structure, s, entry[e],
+                    place_in_panel(n_columns, n_rows, place_of[row[entry[e]]],
+                                   column[entry[e]] - structure.first_column[s]));
       }
+      structure.first_entries.push_back(structure.entries.size());
+      structure.entries.shrink_to_fit();
     }
 
     /// Floating point operations of the subtree below each supernode, itself included.
@@ -176,30 +258,6 @@ namespace Exemplar
       return operations;
     }
 
-    /// Renumber a subtree's ancestor rows into its private tail: the rows of its root below the
-    /// triangle, which include those of all its supernodes.
-    void
-    give_tail(FactorStructure &structure, FactorStructure::Subtree &subtree)
-    {
-      const int root        = subtree.end - 1;
-      const int first_above = structure.first_column[subtree.end];
-      subtree.begin_of_tail = static_cast<int>(structure.tail.size());
-      const auto above      = structure.rows.begin()
-                         + static_cast<std::ptrdiff_t>(structure.first_row[root])
-                         + structure.n_columns(root);
-      structure.tail.insert(structure.tail.end(), above,
-                            structure.rows.begin()
-                                + static_cast<std::ptrdiff_t>(structure.first_row[root + 1]));
-      subtree.end_of_tail = static_cast<int>(structure.tail.size());
-      const auto begin = structure.tail.begin() + subtree.begin_of_tail, end = structure.tail.end();
-      for (std::size_t i = structure.first_row[subtree.begin]; i < structure.first_row[subtree.end];
-           ++i)
-        if (structure.rows[i] >= first_above)
-          structure.rows[i] = structure.n()
-                              + static_cast<int>(std::lower_bound(begin, end, structure.rows[i])
-                                                 - structure.tail.begin());
-    }
-
     /// Cut the elimination tree where a subtree takes at most a thirtieth of the operations, or no
     /// longer than starting a thread.
     void
@@ -215,13 +273,11 @@ namespace Exemplar
         if (is_of_top(s))
           structure.top.push_back(s);
         else if (parent < 0 || is_of_top(parent))
-          structure.subtrees.push_back({ begin, s + 1, 0, 0 });
+          structure.subtrees.push_back({ begin, s + 1 });
         else
           continue;
         begin = s + 1;
       }
-      for (FactorStructure::Subtree &subtree : structure.subtrees)
-        give_tail(structure, subtree);
     }
   } // namespace
 
@@ -232,7 +288,6 @@ namespace Exemplar
   {
     const auto *super   = static_cast<const int *>(factor.super);
     const auto *row     = static_cast<const int *>(factor.pi);
-    const auto *value   = static_cast<const int *>(factor.px);
     const auto *rows    = static_cast<const int *>(factor.s);
     const auto *order   = static_cast<const int *>(factor.Perm);
     const auto  n_super = static_cast<std::ptrdiff_t>(factor.nsuper);
@@ -241,14 +296,12 @@ namespace Exemplar
     structure.permutation.assign(order, order + factor.n);
     structure.first_column.assign(super, super + n_super + 1);
     structure.first_row.assign(row, row + n_super + 1);
-    structure.first_value.assign(value, value + n_super + 1);
-    structure.rows.assign(rows, rows + row[n_super]);
     structure.n_operations = common->fl;
-    for (int s = 0; s < static_cast<int>(n_super); ++s)
-      structure.max_rows = std::max(structure.max_rows, structure.n_rows(s));
-    find_parents(structure);
-    find_places_in_parents(structure);
-    find_entries(pattern, structure);
+    find_parents(structure, rows);
+    find_panels(structure);
+    find_places_in_parents(structure, rows);
+    find_runs(structure);
+    find_entries(pattern, rows, structure);
     find_subtrees(structure);
     return structure;
   }
@@ -257,9 +310,12 @@ namespace Exemplar
   FactorStructure::memory_consumption() const
   {
     return sizeof(int)
-               * (permutation.size() + first_column.size() + rows.size() + parent.size()
-                  + place_in_parent.size() + entry.size() + place.size() + top.size() + tail.size())
-           + sizeof(std::size_t) * (first_row.size() + first_value.size() + first_entry.size())
-           + sizeof(Subtree) * subtrees.size();
+               * (permutation.size() + first_column.size() + parent.size() + place_in_parent.size()
+                  + top.size())
+           + sizeof(std::size_t)
+                 * (first_row.size() + first_value.size() + first_entries.size() + first_run.size())
+           + (sizeof(std::vector<int>) + sizeof(int)) * children.size()
+           + sizeof(Subtree) * subtrees.size() + sizeof(Run) * runs.size()
+           + sizeof(Entries) * entries.size();
   }
 } // namespace Exemplar

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/blas.h>
 #include <exemplar/algebra/elimination.h>
 #include <exemplar/base/loop_parts.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace Exemplar
 {
   namespace
   {
-    // Fronts are cut into blocks of these sizes whatever the number of threads. BLAS, which packs
-    // its operands, is faster than our kernels where operands exceed the caches.
+    // Fronts are cut into blocks of these sizes whatever the number of threads.
 
-    constexpr int great_columns = 64, great_rows = 256; ///< least size of a panel for BLAS
-    constexpr int rows_of_block = 256, columns_of_square = 96;
+    constexpr int            rows_of_task   = 256; ///< a multiple of slab_rows
+    constexpr std::ptrdiff_t blocks_at_once = 4;   ///< whose rows of a task the second cache holds
+
+    constexpr int columns_of_task = 16;
+
+    constexpr std::size_t entries_ahead = 32; ///< to be fetched from memory
 
     /// Number of threads for n tasks of so many operations each: starting a thread takes as long as
     /// some ten thousand operations.
@@ -24,7 +27,7 @@ namespace Exemplar
     }
 
     int
-    n_blocks(const int n, const int size)
+    n_tasks(const int n, const int size)
     {
       return (n + size - 1) / size;
     }
@@ -36,12 +39,8 @@ namespace Exemplar
                                    const double               scale,
                                    Number                    *panels)
       : structure(structure), entries(entries), scale(scale), panels(panels),
-        kernels(front_kernels<Number>()), children(structure.n_supernodes()),
-        squares(structure.n_supernodes())
+        kernels(front_kernels<Number>()), squares(structure.n_supernodes())
   {
-    for (int s = 0; s < structure.n_supernodes(); ++s)
-      if (structure.parent[s] >= 0)
-        children[structure.parent[s]].push_back(s);
   }
 
   template <typename Number>
@@ -66,19 +65,30 @@ namespace Exemplar
   void
   Elimination<Number>::eliminate(const int s, const int n_threads)
   {
+    const int n = structure.n_columns(s), n_rows = structure.n_rows(s);
+    Number   *panel = panels + structure.first_value[s];
     gather_entries(s);
-    for (const int child : children[s])
-      add_child(child, true, s, n_threads);
-    if (!factorize_panel(s, n_threads))
+    std::vector<Columns> columns; // from the first row of the next block on
+    for (PanelBlock block = PanelBlock::first(n, n_rows);; block = block.next())
     {
-      is_definite = false;
-      return;
+      for (const int child : structure.children[s])
+        add_to_block(child, s, block, n_threads);
+      if (!factorize_block(block, columns, panel, n_threads))
+      {
+        is_definite = false;
+        return;
+      }
+      for (Columns &before : columns)
+        before.values += static_cast<std::ptrdiff_t>(block.width) * before.width;
+      columns.push_back({ panel + block.below(), block.width });
+      if (block.column + block.width == n)
+        break;
     }
-    if (n_below(s) > 0)
-      make_square(s, n_threads);
-    for (const int child : children[s])
+    if (structure.n_below(s) > 0)
+      make_square(s, columns, n_threads);
+    for (const int child : structure.children[s])
     {
-      add_child(child, false, s, n_threads);
+      add_to_square(child, s, n_threads);
       squares[child].reset();
     }
   }
@@ -87,109 +97,183 @@ namespace Exemplar
   void
   Elimination<Number>::gather_entries(const int s)
   {
-    Number *to = panel(s);
-    std::fill(to, panels + structure.first_value[s + 1], Number(0.));
-    for (std::size_t e = structure.first_entry[s]; e < structure.first_entry[s + 1]; ++e)
-      to[structure.place[e]] = static_cast<Number>(scale * entries[structure.entry[e]]);
+    Number *to = panels + structure.first_value[s];
+    std::memset(to, 0, sizeof(Number) * (structure.first_value[s + 1] - structure.first_value[s]));
+    for (std::size_t e = structure.first_entries[s]; e < structure.first_entries[s + 1]; ++e)
+    {
+      const auto [begin, place, stride, number] = structure.entries[e];
+      if (e + entries_ahead < structure.entries.size()) // they are anywhere
+        __builtin_prefetch(entries.data() + structure.entries[e + entries_ahead].begin);
+      for (int i = 0; i < number; ++i)
+        to[place + i * stride] = static_cast<Number>(scale * entries[begin + i]);
+    }
+  }
+
+  template <typename Number>
+  template <typename PlaceOf>
+  void
+  Elimination<Number>::add_columns(const int      child,
+                                   const int      begin,
+                                   const int      end,
+                                   const int      first_column,
+                                   const PlaceOf &place_of) const
+  {
+    const auto    n    = static_cast<std::ptrdiff_t>(structure.n_below(child));
+    const int    *rows = structure.rows_in_parent(child);
+    const Number *from = squares[child].get();
+    int           i    = 0, end_of_run;
+    for (std::size_t r = structure.first_run[child]; r < structure.first_run[child + 1];
+         ++r, i = end_of_run)
+    {
+      end_of_run = i + structure.runs[r].length;
+      for (int first = std::max(i, begin); first < end_of_run;)
+      {
+        const Place place = place_of(rows[first]);
+        const int   last  = std::min(end_of_run, first + place.n_rows);
+        // one column of the triangle after the other where the diagonal is among these rows
+        const int n_whole = std::min(end, first + 1) - begin;
+        kernels.add_rows(from + begin * n + first, n, rows + begin, n_whole, first_column,
+                         last - first, place.values, place.column_stride);
+        for (int j = first + 1; j < std::min(end, last); ++j)
+          kernels.add_rows(from + j * n + j, n, rows + j, 1, first_column, last - j,
+                           place.values + j - first, place.column_stride);
+        first = last;
+      }
+    }
   }
 
   template <typename Number>
   void
-  Elimination<Number>::add_child(const int  child,
-                                 const bool to_panel,
-                                 const int  s,
-                                 const int  n_threads)
+  Elimination<Number>::add_to_block(const int         child,
+                                    const int         s,
+                                    const PanelBlock &block,
+                                    const int         n_threads)
   {
-    const int  n = n_below(child), n_columns = structure.n_columns(s);
-    const int *places = structure.place_in_parent.data() + structure.first_row[child]
-                        + structure.n_columns(child);
-    const auto boundary
-        = static_cast<int>(std::lower_bound(places, places + n, n_columns) - places);
-    const int     begin = to_panel ? 0 : boundary, end = to_panel ? boundary : n;
-    const Number *from            = squares[child].get();
-    Number       *to              = to_panel ? panel(s) : squares[s].get();
-    const int     shift           = to_panel ? 0 : n_columns;
-    const auto    stride          = static_cast<std::ptrdiff_t>(structure.n_rows(s) - shift);
-    constexpr int columns_at_once = 16;
-    const int     blocks          = n_blocks(end - begin, columns_at_once);
-    for_each_task(blocks, threads_for(n_threads, blocks, 8. * n),
-                  [&](const int b, int /*thread*/)
+    const int  n = structure.n_below(child), *rows = structure.rows_in_parent(child);
+    const auto index_of = [&](const int row)
+    { return static_cast<int>(std::lower_bound(rows, rows + n, row) - rows); };
+    const int  begin = index_of(block.column), end = index_of(block.column + block.width);
+    Number    *panel    = panels + structure.first_value[s];
+    const auto place_of = [&](const int row_of_supernode)
+    {
+      const int row = row_of_supernode - block.column, below = row - block.width;
+      if (below < 0)
+      {
+        const int first = row / slab_rows * slab_rows, height = block.slab_height(first);
+        return Place{ panel + block.begin + PanelBlock::lower_slab(first) + row - first, height,
+                      first + height - row };
+      }
+      const int first  = below / slab_rows * slab_rows,
+                height = std::min(slab_rows, block.n_below - first);
+      return Place{ panel + block.below() + static_cast<std::size_t>(first) * block.width + below
+                        - first,
+                    height, first + height - below };
+    };
+    const int tasks = n_tasks(end - begin, columns_of_task);
+    for_each_task(tasks, threads_for(n_threads, tasks, 8. * columns_of_task * n),
+                  [&](const int t, int /*thread*/)
                   {
-                    const int first = begin + b * columns_at_once;
-                    for (int j = first; j < std::min(end, first + columns_at_once); ++j)
-                      kernels.add_scattered(from + static_cast<std::ptrdiff_t>(j) * n + j,
-                                            places + j, n - j,
-                                            to + stride * (places[j] - shift) - shift);
+                    const int first = begin + t * columns_of_task;
+                    add_columns(child, first, std::min(end, first + columns_of_task), block.column,
+                                place_of);
                   });
   }
 
   template <typename Number>
-  bool
-  Elimination<Number>::factorize_panel(const int s, const int n_threads)
+  void
+  Elimination<Number>::add_to_square(const int child, const int s, const int n_threads)
   {
-    const int n_rows = structure.n_rows(s), n = structure.n_columns(s);
-    if (n < great_columns || n_rows < great_rows)
-      return kernels.factorize(panel(s), n_rows, n_rows, n);
-    return factorize_great_panel(s, n_threads);
+    const int  n = structure.n_below(child), *rows = structure.rows_in_parent(child);
+    const int  n_columns = structure.n_columns(s), n_below = structure.n_below(s);
+    const auto begin    = static_cast<int>(std::lower_bound(rows, rows + n, n_columns) - rows);
+    const auto place_of = [&, square = squares[s].get()](const int row) {
+      return Place{ square + row - n_columns, n_below, slab_rows };
+    };
+    const int tasks = n_tasks(n - begin, columns_of_task);
+    for_each_task(tasks, threads_for(n_threads, tasks, 8. * columns_of_task * n),
+                  [&](const int t, int /*thread*/)
+                  {
+                    const int first = begin + t * columns_of_task;
+                    add_columns(child, first, std::min(n, first + columns_of_task), n_columns,
+                                place_of);
+                  });
+  }
+
+  template <typename Number>
+  void
+  Elimination<Number>::subtract_products(const std::vector<Columns> &blocks,
+                                         const int                   n_rows,
+                                         const int                   begin,
+                                         const int                   end,
+                                         const int                   n_columns,
+                                         const SlabTarget<Number>   &C,
+                                         const bool                  overwrite) const
+  {
+    const auto n = static_cast<std::ptrdiff_t>(blocks.size());
+    for (std::ptrdiff_t b = 0; b < n; b += blocks_at_once)
+      kernels.subtract_products(blocks.data() + b,
+                                static_cast<int>(std::min(blocks_at_once, n - b)), n_rows, begin,
+                                end, n_columns, C, overwrite && b == 0);
   }
 
   template <typename Number>
   bool
-  Elimination<Number>::factorize_great_panel(const int s, const int n_threads)
+  Elimination<Number>::factorize_block(const PanelBlock           &block,
+                                       const std::vector<Columns> &before,
+                                       Number                     *panel,
+                                       const int                   n_threads)
   {
-    const int  n_rows = structure.n_rows(s), n = structure.n_columns(s);
-    Number    *L  = panel(s);
-    const auto at = [&](const int row, const int column)
-    { return L + static_cast<std::ptrdiff_t>(column) * n_rows + row; };
-    for (int c = 0; c < n; c += great_columns)
+    constexpr int      stride = PanelBlock::max_width;
+    alignas(64) Number triangle[stride * stride];
+    for (int row = 0; row < block.width; row += slab_rows)
     {
-      const int m = std::min(great_columns, n - c), below = c + m;
-      // update columns c to below - 1 by the columns before them
-      const int blocks = n_blocks(n_rows - c, rows_of_block);
-      for_each_task(blocks, threads_for(n_threads, blocks, 2e4 * c),
-                    [&](const int b, int /*thread*/)
-                    {
-                      if (const int row = c + b * rows_of_block; c > 0)
-                        Blas::subtract_product<Number>("N", "T",
-                                                       std::min(rows_of_block, n_rows - row), m, c,
-                                                       { at(row, 0), n_rows }, { at(c, 0), n_rows },
-                                                       1., { at(row, c), n_rows });
-                    });
-      if (!kernels.factorize(at(c, c), n_rows, m, m))
-        return false;
-      const int blocks_below = n_blocks(n_rows - below, rows_of_block);
-      for_each_task(blocks_below, threads_for(n_threads, blocks_below, 1e6),
-                    [&](const int b, int /*thread*/)
-                    {
-                      const int row = below + b * rows_of_block;
-                      Blas::solve_triangle<Number>("R", "T", std::min(rows_of_block, n_rows - row),
-                                                   m, { at(c, c), n_rows }, { at(row, c), n_rows });
-                    });
+      const int     h    = block.slab_height(row);
+      const Number *slab = panel + block.begin + PanelBlock::lower_slab(row);
+      for (int k = 0; k < row + h; ++k)
+        std::copy(slab + k * h, slab + (k + 1) * h, triangle + k * stride + row);
     }
+    const int n_rows = block.width + block.n_below;
+    subtract_products(before, n_rows, 0, block.width, block.width,
+                      { triangle, slab_rows, stride, stride }, false);
+    if (!kernels.factorize_triangle(triangle, block.width))
+      return false;
+    kernels.write_inverse(triangle, block, panel);
+    const std::ptrdiff_t slab_stride = slab_rows * static_cast<std::ptrdiff_t>(block.width);
+    const int            tasks       = n_tasks(block.n_below, rows_of_task);
+    const int            n_before    = block.column;
+    for_each_task(
+        tasks,
+        threads_for(n_threads, tasks,
+                    2. * rows_of_task * block.width * (n_before + block.width / 2)),
+        [&](const int t, int /*thread*/)
+        {
+          const int begin = t * rows_of_task, end = std::min(block.n_below, begin + rows_of_task);
+          subtract_products(before, n_rows, block.width + begin, block.width + end, block.width,
+                            { panel + block.below() - block.width / slab_rows * slab_stride,
+                              slab_stride, slab_rows, block.n_below % slab_rows },
+                            false);
+          kernels.finish_rows(block, begin, end, panel);
+        });
     return true;
   }
 
   template <typename Number>
   void
-  Elimination<Number>::make_square(const int s, const int n_threads)
+  Elimination<Number>::make_square(const int                   s,
+                                   const std::vector<Columns> &columns,
+                                   const int                   n_threads)
   {
-    const int  n = n_below(s), n_rows = structure.n_rows(s), n_inner = structure.n_columns(s);
-    const bool is_great = n_inner >= great_columns && n >= great_rows;
+    const int n = structure.n_below(s);
     squares[s].reset(new Number[static_cast<std::size_t>(n) * n + FrontKernels<Number>::max_lanes]);
-    const Number *A      = panel(s) + n_inner;
-    Number       *square = squares[s].get();
-    const int     blocks = n_blocks(n, columns_of_square);
-    for_each_task(blocks, threads_for(n_threads, blocks, 50. * n * n_inner),
-                  [&](const int b, int /*thread*/)
-                  {
-                    const int c = b * columns_of_square, m = std::min(columns_of_square, n - c);
-                    Number   *to = square + static_cast<std::ptrdiff_t>(c) * n + c;
-                    if (is_great)
-                      Blas::subtract_product<Number>("N", "T", n - c, m, n_inner, { A + c, n_rows },
-                                                     { A + c, n_rows }, 0., { to, n });
-                    else
-                      kernels.subtract_square(A + c, n_rows, n_inner, n - c, m, to, n, true);
-                  });
+    Number   *square = squares[s].get();
+    const int tasks  = n_tasks(n, rows_of_task);
+    for_each_task(
+        tasks, threads_for(n_threads, tasks, 1. * rows_of_task * n * structure.n_columns(s)),
+        [&](const int t, int /*thread*/)
+        {
+          const int begin = t * rows_of_task, end = std::min(n, begin + rows_of_task);
+          subtract_products(columns, n, begin, end, end, { square, slab_rows, n, n }, true);
+        });
   }
 
   template class Elimination<double>;

@@ -27,9 +27,7 @@ namespace Exemplar
 
   FactorColumns::FactorColumns(std::shared_ptr<const MultifrontalFactor<float>> new_factor)
       : factor(std::move(new_factor)), row_of(factor->get_structure().n()),
-        supernode_of(row_of.size()), subtree_of(factor->get_structure().n_supernodes(), -1),
-        vector(row_of.size() + factor->get_structure().tail.size()),
-        block(factor->get_structure().max_rows + FrontKernels<float>::max_lanes)
+        supernode_of(row_of.size()), vector(factor->get_structure().n_of_vectors(), 0.F)
   {
     const FactorStructure &structure = factor->get_structure();
     for (int i = 0; i < structure.n(); ++i)
@@ -37,41 +35,26 @@ namespace Exemplar
     for (int s = 0; s < structure.n_supernodes(); ++s)
       std::fill(supernode_of.begin() + structure.first_column[s],
                 supernode_of.begin() + structure.first_column[s + 1], s);
-    for (std::size_t i = 0; i < structure.subtrees.size(); ++i)
-      std::fill(subtree_of.begin() + structure.subtrees[i].begin,
-                subtree_of.begin() + structure.subtrees[i].end, static_cast<int>(i));
   }
 
   std::size_t
   FactorColumns::add(const unsigned int unknown)
   {
     const FactorStructure &structure = factor->get_structure();
-    const int              row       = row_of[unknown];
+    const int              row = row_of[unknown], first = supernode_of[row];
     Column                 column;
-    vector[row] = 1.;
-    for (int s = supernode_of[row]; s != -1; s = structure.parent[s])
+    vector[structure.vector_begin(first) + row - structure.first_column[first]] = 1.F;
+    for (int s = first; s != -1; s = structure.parent[s])
     {
-      column.supernodes.push_back(s);
-      factor->forward(s, vector.data(), block.data());
-      const int parent = structure.parent[s];
-      if (subtree_of[s] == -1 || (parent != -1 && subtree_of[parent] == subtree_of[s]))
-        continue;
-      // the way leaves a subtree, whose copies of the rows above it join these
-      const FactorStructure::Subtree &subtree = structure.subtrees[subtree_of[s]];
-      for (int i = subtree.begin_of_tail; i < subtree.end_of_tail; ++i)
-      {
-        float &copy = vector[structure.n() + i];
-        vector[structure.tail[i]] += copy;
-        copy = 0.;
-      }
+      column.supernodes.push_back(s); // whose other children have vectors of zeros
+      factor->forward(s, { vector.data(), vector.size(), 1 });
     }
     std::reverse(column.supernodes.begin(), column.supernodes.end());
     for (const int s : column.supernodes)
     {
-      const auto begin = vector.begin() + structure.first_column[s];
-      const auto end   = vector.begin() + structure.first_column[s + 1];
-      column.values.insert(column.values.end(), begin, end);
-      std::fill(begin, end, 0.F);
+      const auto begin = vector.begin() + structure.vector_begin(s);
+      column.values.insert(column.values.end(), begin, begin + structure.n_columns(s));
+      std::fill_n(begin, structure.n_rows(s) + slab_rows, 0.F);
     }
     columns.push_back(std::move(column));
     return columns.size() - 1;
@@ -92,8 +75,8 @@ namespace Exemplar
   std::size_t
   FactorColumns::memory_consumption() const
   {
-    std::size_t bytes = sizeof(int) * (row_of.size() + supernode_of.size() + subtree_of.size())
-                        + sizeof(float) * (vector.size() + block.size());
+    std::size_t bytes = sizeof(int) * (row_of.size() + supernode_of.size())
+                        + sizeof(float) * vector.size();
     for (const Column &column : columns)
       bytes
           += sizeof(int) * column.supernodes.capacity() + sizeof(float) * column.values.capacity();

@@ -1,196 +1,247 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/blas.h>
 #include <exemplar/algebra/elimination.h>
-#include <exemplar/algebra/front_kernels.h>
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/algebra/multifrontal_factor.h>
+#include <exemplar/base/loop_parts.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <new>
 
 namespace Exemplar
 {
   namespace
   {
-    /// Multiplication of several columns by L^-1 or L^-T, restricted to supernodes begin to
-    /// end - 1, by BLAS.
-    template <typename Number>
-    struct SeveralColumns
+    constexpr std::align_val_t line{ 128 };
+
+    /// Least size of a factor for threads in a solve: starting one takes as long as solving with so many numbers.
+    constexpr std::size_t min_values = 400000;
+
+    /// A power of two near 1 over a magnitude, which need not be finite.
+    double
+    unit_of(const double magnitude)
     {
-      const FactorStructure &structure;
-      const Number          *values;
-      Number                *columns;
-      int                    stride, n_columns;
-
-      void
-      forward(const int begin, const int end, std::vector<Number> &block) const
-      {
-        for (int s = begin; s < end; ++s)
-        {
-          const auto [n, below, rows, L, own] = front(s);
-          Blas::solve_triangle<Number>("L", "N", n, n_columns, L, own);
-          if (below == 0) // the reference BLAS refuses empty blocks
-            continue;
-          block.resize(static_cast<std::size_t>(below) * n_columns);
-          Blas::subtract_product<Number>("N", "N", below, n_columns, n, { L.values + n, L.stride },
-                                         { own.values, stride }, 0., { block.data(), below });
-          for (int k = 0; k < n_columns; ++k)
-            for (int i = 0; i < below; ++i)
-              at(rows[i], k) += block[static_cast<std::size_t>(k) * below + i];
-        }
-      }
-
-      void
-      backward(const int begin, const int end, std::vector<Number> &block) const
-      {
-        for (int s = end; s-- > begin;)
-        {
-          const auto [n, below, rows, L, own] = front(s);
-          block.resize(static_cast<std::size_t>(below) * n_columns);
-          for (int k = 0; k < n_columns; ++k)
-            for (int i = 0; i < below; ++i)
-              block[static_cast<std::size_t>(k) * below + i] = at(rows[i], k);
-          if (below > 0)
-            Blas::subtract_product<Number>("T", "N", n, n_columns, below,
-                                           { L.values + n, L.stride }, { block.data(), below }, 1.,
-                                           own);
-          Blas::solve_triangle<Number>("L", "T", n, n_columns, L, own);
-        }
-      }
-
-    private:
-      struct Front
-      {
-        int                        n, below; ///< number of columns, and of rows below the triangle
-        const int                 *rows;     ///< numbers of the rows below the triangle
-        Blas::Matrix<const Number> L;
-        Blas::Matrix<Number>       own; ///< right sides at the supernode's columns
-      };
-
-      Front
-      front(const int s) const
-      {
-        const int n = structure.n_columns(s), n_rows = structure.n_rows(s);
-        return { n,
-                 n_rows - n,
-                 structure.rows.data() + structure.first_row[s] + n,
-                 { values + structure.first_value[s], n_rows },
-                 { columns + structure.first_column[s], stride } };
-      }
-
-      Number &
-      at(const int row, const int k) const
-      {
-        return columns[static_cast<std::size_t>(k) * stride + row];
-      }
-    };
+      constexpr int most = 1000;
+      return magnitude == 0. ? 1. : std::exp2(-std::clamp(std::ilogb(magnitude), -most, most));
+    }
   } // namespace
 
   template <typename Number>
   MultifrontalFactor<Number>::MultifrontalFactor(
       std::shared_ptr<const FactorStructure> new_structure, const unsigned int n_threads)
-      : structure(std::move(new_structure)), n_threads(static_cast<int>(n_threads)),
-        inverse_diagonal(structure->n()), workspace(n_threads)
+      : structure(std::move(new_structure)), kernels(front_kernels<Number>()),
+        n_threads(static_cast<int>(n_threads)),
+        values(allocate(structure->n_values() + FrontKernels<Number>::max_lanes))
   {
+  }
+
+  template <typename Number>
+  void
+  MultifrontalFactor<Number>::Free::operator()(Number *numbers) const
+  {
+    ::operator delete[](numbers, line);
+  }
+
+  template <typename Number>
+  typename MultifrontalFactor<Number>::Numbers
+  MultifrontalFactor<Number>::allocate(const std::size_t n)
+  {
+    auto *numbers = static_cast<Number *>(::operator new[](n * sizeof(Number), line));
+    // what is behind the values is multiplied, though nobody uses the products
+    std::fill_n(numbers + n - FrontKernels<Number>::max_lanes, FrontKernels<Number>::max_lanes,
+                Number(0.));
+    return Numbers(numbers);
   }
 
   template <typename Number>
   bool
   MultifrontalFactor<Number>::factorize(const std::vector<double> &entries)
   {
-    values.resize(structure->n_values() + FrontKernels<Number>::max_lanes);
     if constexpr (sizeof(Number) < sizeof(double))
-      scale = std::exp2(-std::ilogb(max_entry(entries)));
-    const bool is_definite
-        = Elimination<Number>(*structure, entries, scale, values.data()).run(n_threads);
-    if (is_definite)
-      finish();
-    return is_definite;
+      scale = unit_of(max_entry(entries));
+    return Elimination<Number>(*structure, entries, scale, values.get()).run(n_threads);
+  }
+
+  template <typename Number>
+  template <typename Function>
+  void
+  MultifrontalFactor<Number>::for_each_block(const Function &function) const
+  {
+    for (int s = 0; s < structure->n_supernodes(); ++s)
+      for (PanelBlock block = PanelBlock::first(structure->n_columns(s), structure->n_rows(s));;
+           block            = block.next())
+      {
+        function(s, block);
+        if (block.column + block.width == structure->n_columns(s))
+          break;
+      }
   }
 
   template <typename Number>
   void
   MultifrontalFactor<Number>::assign(const double *panels)
   {
-    const double *end  = panels + structure->n_values();
-    const double  unit = std::exp2(-std::ilogb(max_entry(panels, end)));
-    scale              = unit * unit;
-    values.resize(structure->n_values() + FrontKernels<Number>::max_lanes);
-    std::transform(panels, end, values.begin(),
-                   [unit](const double value) { return static_cast<Number>(unit * value); });
-    finish();
+    std::size_t              n = 0;
+    std::vector<std::size_t> begin;
+    for (int s = 0; s < structure->n_supernodes(); ++s)
+    {
+      begin.push_back(n);
+      n += static_cast<std::size_t>(structure->n_rows(s)) * structure->n_columns(s);
+    }
+    const double unit = unit_of(max_entry(panels, panels + n));
+    scale             = unit * unit;
+    for_each_block(
+        [&](const int s, const PanelBlock &block)
+        {
+          const auto at = [&](const int row, const int column)
+          {
+            return static_cast<Number>(
+                unit
+                * panels[begin[s] + static_cast<std::size_t>(column) * structure->n_rows(s) + row]);
+          };
+          constexpr int      stride = PanelBlock::max_width;
+          alignas(64) Number triangle[stride * stride];
+          for (int k = 0; k < block.width; ++k)
+            for (int i = k; i < block.width; ++i)
+              triangle[k * stride + i] = at(block.column + i, block.column + k);
+          Number *panel = values.get() + structure->first_value[s], *to = panel + block.below();
+          kernels.write_inverse(triangle, block, panel);
+          for (int row = 0; row < block.n_below; row += slab_rows)
+            for (int k = 0; k < block.width; ++k)
+              for (int i = row; i < std::min(row + slab_rows, block.n_below); ++i)
+                *to++ = at(block.column + block.width + i, block.column + k);
+        });
   }
 
   template <typename Number>
+  template <typename Other>
   void
-  MultifrontalFactor<Number>::finish()
+  MultifrontalFactor<Number>::assign(const MultifrontalFactor<Other> &other)
   {
-    for (int s = 0; s < structure->n_supernodes(); ++s)
-      for (int c = 0; c < structure->n_columns(s); ++c)
-        inverse_diagonal[structure->first_column[s] + c]
-            = Number(1.)
-              / values[structure->first_value[s]
-                       + static_cast<std::size_t>(c) * structure->n_rows(s) + c];
+    // the inverse of the greatest entry of L's diagonal is about as small as entries of inverses get
+    const auto   pivots = other.diagonal_range();
+    const double unit   = unit_of(pivots.second);
+    scale               = unit * unit * other.scale;
+    for_each_block(
+        [&](const int s, const PanelBlock &block)
+        {
+          const std::size_t panel = structure->first_value[s];
+          const auto copy = [&](const std::size_t begin, const std::size_t end, const double factor)
+          {
+            std::transform(other.values.get() + panel + begin, other.values.get() + panel + end,
+                           values.get() + panel + begin,
+                           [factor](const Other value)
+                           { return static_cast<Number>(factor * value); });
+          };
+          copy(block.begin, block.below(), 1. / unit);
+          copy(block.below(), block.end(), unit);
+        });
+  }
+
+  template <typename Number>
+  std::pair<double, double>
+  MultifrontalFactor<Number>::diagonal_range() const
+  {
+    double min = std::numeric_limits<double>::infinity(), max = 0.;
+    for_each_block(
+        [&](const int s, const PanelBlock &block)
+        {
+          const Number *triangle = values.get() + structure->first_value[s] + block.begin;
+          for (int k = 0; k < block.width; ++k)
+          {
+            const int    row = k / slab_rows * slab_rows;
+            const double inverse
+                = triangle[PanelBlock::lower_slab(row) + k * block.slab_height(row) + k - row];
+            min = std::min(min, 1. / inverse);
+            max = std::max(max, 1. / inverse);
+          }
+        });
+    return { min, max };
   }
 
   template <typename Number>
   double
   MultifrontalFactor<Number>::pivot_ratio() const
   {
-    const auto [min, max] = std::minmax_element(inverse_diagonal.begin(), inverse_diagonal.end());
-    return std::pow(static_cast<double>(*max) / static_cast<double>(*min), 2);
+    const auto [min, max] = diagonal_range();
+    return std::pow(max / min, 2);
   }
 
   template <typename Number>
   void
-  MultifrontalFactor<Number>::solve(std::vector<Number> &columns)
+  MultifrontalFactor<Number>::solve(std::vector<double> &columns)
   {
-    const auto n_columns = static_cast<int>(columns.size() / std::max(1, structure->n()));
-    if (n_columns == 1)
+    const auto n      = static_cast<std::size_t>(structure->n());
+    const int  number = n == 0 ? 0 : static_cast<int>(columns.size() / n);
+    for (int k = 0; k < number; k += SupernodeVectors<Number>::max_number)
+      solve(columns.data() + k * n, std::min(SupernodeVectors<Number>::max_number, number - k));
+  }
+
+  template <typename Number>
+  void
+  MultifrontalFactor<Number>::solve(double *columns, const int number)
+  {
+    const std::size_t n = structure->n(), stride = structure->n_of_vectors();
+    vectors.resize(std::max(vectors.size(), number * stride));
+    const SupernodeVectors<Number>                           all{ vectors.data(), stride, number };
+    std::array<double, SupernodeVectors<Number>::max_number> units;
+    for (int k = 0; k < number; ++k)
     {
-      const FrontKernels<Number> &kernels = front_kernels<Number>();
-      const auto                  by      = [&](const auto &kernel)
-      {
-        return [&, kernel](const int begin, const int end, Number *column, std::size_t,
-                           std::vector<Number> &block)
-        {
-          block.resize(structure->max_rows + FrontKernels<Number>::max_lanes);
-          kernel(*structure, values.data(), inverse_diagonal.data(), begin, end, column,
-                 block.data());
-        };
-      };
-      workspace.solve(*structure, columns, by(kernels.forward), by(kernels.backward));
-      return;
+      // scaled: forces that shrink by ten orders of magnitude would underflow in single precision
+      double *column = columns + k * n;
+      units[k] = sizeof(Number) == sizeof(double) ? 1. : unit_of(max_entry(column, column + n));
+      for_each_own_row(vectors.data() + k * stride, [&](const int i, Number &entry)
+                       { entry = static_cast<Number>(units[k] * column[i]); });
     }
-    const auto of = [&](Number *permuted, const std::size_t stride)
+    const int  n_subtrees  = static_cast<int>(structure->subtrees.size());
+    const int  n_at_once   = structure->n_values() < min_values ? 1 : n_threads;
+    const auto in_subtrees = [&](const auto &kernel)
     {
-      return SeveralColumns<Number>{ *structure, values.data(), permuted, static_cast<int>(stride),
-                                     n_columns };
+      for_each_task(n_subtrees, n_at_once,
+                    [&](const int i, int /*thread*/)
+                    {
+                      kernel(*structure, values.get(), structure->subtrees[i].begin,
+                             structure->subtrees[i].end, all);
+                    });
     };
-    workspace.solve(
-        *structure, columns,
-        [&](const int begin, const int end, Number *permuted, const std::size_t stride,
-            std::vector<Number> &block) { of(permuted, stride).forward(begin, end, block); },
-        [&](const int begin, const int end, Number *permuted, const std::size_t stride,
-            std::vector<Number> &block) { of(permuted, stride).backward(begin, end, block); });
+    in_subtrees(kernels.forward);
+    for (const int s : structure->top)
+      kernels.forward(*structure, values.get(), s, s + 1, all);
+    for (auto s = structure->top.rbegin(); s != structure->top.rend(); ++s)
+      kernels.backward(*structure, values.get(), *s, *s + 1, all);
+    in_subtrees(kernels.backward);
+    for (int k = 0; k < number; ++k)
+      for_each_own_row(vectors.data() + k * stride,
+                       [&, factor = scale / units[k]](const int i, const Number &entry)
+                       { columns[k * n + i] = factor * entry; });
   }
 
   template <typename Number>
+  template <typename Function>
   void
-  MultifrontalFactor<Number>::forward(const int supernode, Number *vector, Number *block) const
+  MultifrontalFactor<Number>::for_each_own_row(Number *vector, const Function &function) const
   {
-    front_kernels<Number>().forward(*structure, values.data(), inverse_diagonal.data(), supernode,
-                                    supernode + 1, vector, block);
+    for (int s = 0; s < structure->n_supernodes(); ++s)
+    {
+      Number    *own = vector + structure->vector_begin(s);
+      const int *row = structure->permutation.data() + structure->first_column[s];
+      for (int i = 0; i < structure->n_columns(s); ++i)
+        function(row[i], own[i]);
+    }
   }
 
   template <typename Number>
   std::size_t
   MultifrontalFactor<Number>::memory_consumption() const
   {
-    return structure->memory_consumption() + workspace.memory_consumption()
-           + sizeof(Number) * (values.capacity() + inverse_diagonal.capacity());
+    return structure->memory_consumption()
+           + sizeof(Number) * (structure->n_values() + vectors.capacity());
   }
 
   template class MultifrontalFactor<double>;
   template class MultifrontalFactor<float>;
+  template void
+  MultifrontalFactor<float>::assign(const MultifrontalFactor<double> &);
 } // namespace Exemplar

@@ -17,7 +17,8 @@ namespace Exemplar
     std::shared_ptr<const FactorStructure>
     analyzed(const SymmetricPattern &pattern, const std::vector<int> &order = {})
     {
-      CholmodCommon   common;
+      CholmodCommon common;
+      common.join_more_supernodes();
       cholmod_factor *factor = analyze(pattern, common, order);
       FactorStructure result = factor_structure(pattern, *factor, common);
       cholmod_free_factor(&factor, &common);
@@ -132,7 +133,7 @@ namespace Exemplar
         if (!factor)
           throw indefinite_matrix(); // the last factorisation has failed
         auto rounded = std::make_shared<MultifrontalFactor<float>>(structure, threads_at_work());
-        rounded->assign(factor->get_values());
+        rounded->assign(*factor);
         return std::make_unique<SinglePrecisionInverse>(std::move(rounded));
       }
 
@@ -173,7 +174,7 @@ namespace Exemplar
         for (unsigned int k = 0;; ++k)
         {
           std::vector<double> step = residual;
-          apply_in_single_precision(*rough_factor, step);
+          rough_factor->solve(step);
           add(columns, 1., step);
           if (k == n_refinements)
             return;

@@ -2,7 +2,7 @@
 #ifndef exemplar_blas_h
 #define exemplar_blas_h
 
-// Two functions of BLAS for both precisions. Matrices are stored by columns, `stride` apart. No
+// A function of BLAS for both precisions. Matrices are stored by columns, `stride` apart. No
 // deal.II header here: see matrix3.h.
 
 extern "C"
@@ -33,30 +33,6 @@ extern "C"
          const float *,
          const int *,
          const float *,
-         float *,
-         const int *);
-  void
-  dtrsm_(const char *,
-         const char *,
-         const char *,
-         const char *,
-         const int *,
-         const int *,
-         const double *,
-         const double *,
-         const int *,
-         double *,
-         const int *);
-  void
-  strsm_(const char *,
-         const char *,
-         const char *,
-         const char *,
-         const int *,
-         const int *,
-         const float *,
-         const float *,
-         const int *,
          float *,
          const int *);
 }
@@ -92,24 +68,6 @@ namespace Exemplar::Blas
     else
       sgemm_(transposed_A, transposed_B, &m, &n, &k, &minus_one, A.values, &A.stride, B.values,
              &B.stride, &beta, C.values, &C.stride);
-  }
-
-  /// Overwrite the m x n matrix B by op(L)^-1 B, with `side` "L", or by B op(L)^-1 with "R"; L is
-  /// lower triangular.
-  template <typename Number>
-  void
-  solve_triangle(const char          *side,
-                 const char          *transposed,
-                 const int            m,
-                 const int            n,
-                 Matrix<const Number> L,
-                 Matrix<Number>       B)
-  {
-    const Number one = 1.;
-    if constexpr (sizeof(Number) == sizeof(double))
-      dtrsm_(side, "L", transposed, "N", &m, &n, &one, L.values, &L.stride, B.values, &B.stride);
-    else
-      strsm_(side, "L", transposed, "N", &m, &n, &one, L.values, &L.stride, B.values, &B.stride);
   }
 } // namespace Exemplar::Blas
 

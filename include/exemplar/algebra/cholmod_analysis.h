@@ -22,6 +22,11 @@ namespace Exemplar
     operator=(const CholmodCommon &)
         = delete;
 
+    /// Join more small supernodes than CHOLMOD does, though more zeros are stored: our solves and factorisations wait
+    /// longer at each than CHOLMOD's.
+    void
+    join_more_supernodes();
+
     cholmod_common *
     operator&()
     {

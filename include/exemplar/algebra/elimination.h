@@ -16,8 +16,8 @@ namespace Exemplar
   class Elimination
   {
   public:
-    /// Factorises `scale` times the matrix with these entries. `panels` have room for
-    /// structure.n_values() numbers plus one register.
+    /// Factorises `scale` times the matrix with these entries. `panels` have room for structure.n_values() numbers plus one
+    /// register.
     Elimination(const FactorStructure     &structure,
                 const std::vector<double> &entries,
                 double                     scale,
@@ -28,7 +28,9 @@ namespace Exemplar
     run(int n_threads);
 
   private:
-    /// The update matrix of a front for its parent: a square, of which the lower triangle is set.
+    using Columns = SlabColumns<Number>;
+
+    /// The update matrix of a front for its parent: a square by columns, of which the lower triangle is set.
     using Square = std::unique_ptr<Number[]>;
 
     void
@@ -37,40 +39,55 @@ namespace Exemplar
     void
     gather_entries(int s);
 
-    /// Extend-add columns `begin` to `end` - 1 of a child's update matrix to the panel or the
-    /// square.
+    /// Extend-add a child's update matrix to the supernode's columns in a block of its panel.
     void
-    add_child(int child, bool to_panel, int s, int n_threads);
+    add_to_block(int child, int s, const PanelBlock &block, int n_threads);
 
-    bool
-    factorize_panel(int s, int n_threads);
+    /// Extend-add what is left of it to the supernode's square.
+    void
+    add_to_square(int child, int s, int n_threads);
 
+    /// Where rows of a supernode, so many and consecutive, stand in a column, and the distance of columns.
+    struct Place
+    {
+      Number        *values;
+      std::ptrdiff_t column_stride;
+      int            n_rows;
+    };
+
+    /// Add columns begin to end - 1 of a child's update matrix. place_of(row of the parent) is a Place in the column of the
+    /// parent's `first_column`.
+    template <typename PlaceOf>
+    void
+    add_columns(int child, int begin, int end, int first_column, const PlaceOf &place_of) const;
+
+    /// Factorise a block, after its update by the blocks before it, which begin with its first row.
     bool
-    factorize_great_panel(int s, int n_threads);
+    factorize_block(const PanelBlock           &block,
+                    const std::vector<Columns> &before,
+                    Number                     *panel,
+                    int                         n_threads);
 
     void
-    make_square(int s, int n_threads);
+    make_square(int s, const std::vector<Columns> &columns, int n_threads);
 
-    int
-    n_below(const int s) const
-    {
-      return structure.n_rows(s) - structure.n_columns(s);
-    }
+    /// FrontKernels::subtract_products() with so many blocks at once as the caches hold.
+    void
+    subtract_products(const std::vector<Columns> &blocks,
+                      int                         n_rows,
+                      int                         begin,
+                      int                         end,
+                      int                         n_columns,
+                      const SlabTarget<Number>   &C,
+                      bool                        overwrite) const;
 
-    Number *
-    panel(const int s)
-    {
-      return panels + structure.first_value[s];
-    }
-
-    const FactorStructure        &structure;
-    const std::vector<double>    &entries;
-    const double                  scale;
-    Number                       *panels;
-    const FrontKernels<Number>   &kernels;
-    std::vector<std::vector<int>> children;
-    std::vector<Square>           squares;
-    std::atomic<bool>             is_definite{ true };
+    const FactorStructure      &structure;
+    const std::vector<double>  &entries;
+    const double                scale;
+    Number                     *panels;
+    const FrontKernels<Number> &kernels;
+    std::vector<Square>         squares;
+    std::atomic<bool>           is_definite{ true };
   };
 } // namespace Exemplar
 

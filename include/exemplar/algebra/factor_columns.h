@@ -38,8 +38,7 @@ namespace Exemplar
     const std::shared_ptr<const MultifrontalFactor<float>> factor;
     std::vector<int>                                       row_of;       ///< of L, by unknown
     std::vector<int>                                       supernode_of; ///< by row of L
-    std::vector<int>    subtree_of; ///< by supernode; -1: in the top
-    std::vector<float>  vector, block;
+    std::vector<float>  vector; ///< SupernodeVectors of one right side, zero between calls
     std::vector<Column> columns;
   };
 } // namespace Exemplar

@@ -2,9 +2,10 @@
 #ifndef exemplar_multifrontal_factor_h
 #define exemplar_multifrontal_factor_h
 
-#include <exemplar/algebra/subtree_solve.h>
+#include <exemplar/algebra/front_kernels.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace Exemplar
@@ -26,18 +27,21 @@ namespace Exemplar
     bool
     factorize(const std::vector<double> &values);
 
-    /// Copy the panels of a factor of A.
+    /// Take a factor of A from CHOLMOD's panels: each has a supernode's columns one after the other, all rows of each.
     void
     assign(const double *panels);
 
-    /// Overwrite columns C (n entries each, one after the other, in the order of A) by (get_scale()
-    /// A)^-1 C.
+    /// Take a factor in another precision.
+    template <typename Other>
     void
-    solve(std::vector<Number> &columns);
+    assign(const MultifrontalFactor<Other> &other);
 
     /// Forward substitution, as FrontKernels::forward, for one supernode.
     void
-    forward(int supernode, Number *vector, Number *block) const;
+    forward(const int supernode, const SupernodeVectors<Number> &of_supernodes) const
+    {
+      kernels.forward(*structure, values.get(), supernode, supernode + 1, of_supernodes);
+    }
 
     /// A power of two: get_scale() times A is factorised, so that it is in the range of single
     /// precision.
@@ -47,11 +51,15 @@ namespace Exemplar
       return scale;
     }
 
-    /// The values of the panels.
+    /// Overwrite columns C (n entries each, one after the other, in the order of A) by A^-1 C.
+    void
+    solve(std::vector<double> &columns);
+
+    /// The values of the panels, PanelBlock by PanelBlock, and some numbers behind them.
     const Number *
     get_values() const
     {
-      return values.data();
+      return values.get();
     }
 
     const FactorStructure &
@@ -69,15 +77,43 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
+    struct Free
+    {
+      void
+      operator()(Number *numbers) const;
+    };
+    using Numbers = std::unique_ptr<Number[], Free>;
+
+    static Numbers
+    allocate(std::size_t n);
+
+    /// Call function(s, block) for all blocks of the supernodes' panels.
+    template <typename Function>
     void
-    finish();
+    for_each_block(const Function &function) const;
+
+    /// Call function(row of A, entry) for all entries of one right side in the vectors of supernodes.
+    template <typename Function>
+    void
+    for_each_own_row(Number *vector, const Function &function) const;
+
+    /// Solve for so many columns at once.
+    void
+    solve(double *columns, int number);
+
+    /// The least and the greatest entry of L's diagonal.
+    std::pair<double, double>
+    diagonal_range() const;
 
     std::shared_ptr<const FactorStructure> structure;
+    const FrontKernels<Number>            &kernels;
     int                                    n_threads;
-    double                                 scale = 1.;
-    std::vector<Number>                    values; ///< panels, padded by a register
-    std::vector<Number>                    inverse_diagonal;
-    SubtreeSolve<Number>                   workspace;
+    double                                 scale = 1.; ///< a power of two: A times it is factorised
+    Numbers                                values;  ///< at the begin of a line of the cache, or two
+    std::vector<Number>                    vectors; ///< of supernodes, for several right sides
+
+    template <typename Other>
+    friend class MultifrontalFactor;
   };
 } // namespace Exemplar
 

@@ -10,10 +10,6 @@
 
 namespace Exemplar
 {
-  /// Overwrite columns C by an approximation of A^-1 C, by a factor in single precision.
-  void
-  apply_in_single_precision(MultifrontalFactor<float> &factor, std::vector<double> &columns);
-
   /// A Cholesky factor in single precision as an approximate inverse: solving costs a third of that
   /// in double precision.
   class SinglePrecisionInverse : public KeptInverse
@@ -27,7 +23,7 @@ namespace Exemplar
     void
     apply(std::vector<double> &vector) override
     {
-      apply_in_single_precision(*factor, vector);
+      factor->solve(vector);
     }
 
     std::unique_ptr<InverseEntries>

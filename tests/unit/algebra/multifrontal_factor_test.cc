@@ -98,7 +98,7 @@ namespace Exemplar::Testing
       return result;
     }
 
-    // Of 20 x 20 x 20 points the upper separators are great panels, for BLAS, and there is a top with
+    // Of 20 x 20 x 20 points the upper separators have panels of several blocks, and there is a top with
     // subtrees below; of 2 x 2 x 2 there is one panel.
 
     TEST(MultifrontalFactorTest, SolvesAsCholmodDoes)
@@ -262,25 +262,58 @@ namespace Exemplar::Testing
       EXPECT_NEAR(own->traits().pivot_ratio, its->traits().pivot_ratio, 1e-10);
     }
 
-    TEST(FactorStructureTest, TheTailOfASubtreeIsWhatItSeesOfTheTop)
+    TEST(FactorStructureTest, BlocksFillThePanelsAndRunsTheRows)
     {
       const auto structure = structure_of(laplacian(16, 0.).pattern);
-      ASSERT_GT(structure->tail.size(), 0u);
-      std::vector<bool> is_of_top(structure->n(), false);
-      for (const int s : structure->top)
-        std::fill(is_of_top.begin() + structure->first_column[s],
-                  is_of_top.begin() + structure->first_column[s + 1], true);
-      for (const int row : structure->tail)
-        EXPECT_TRUE(is_of_top[row]);
-      for (const auto &subtree : structure->subtrees)
-        for (std::size_t i = structure->first_row[subtree.begin];
-             i < structure->first_row[subtree.end]; ++i)
+      for (int s = 0; s < structure->n_supernodes(); ++s)
+      {
+        const int   n = structure->n_columns(s), n_rows = structure->n_rows(s);
+        PanelBlock  block = PanelBlock::first(n, n_rows);
+        std::size_t begin = 0;
+        for (;; block = block.next())
         {
-          const int row = structure->rows[i], of_tail = row - structure->n();
-          EXPECT_TRUE(of_tail >= 0
-                          ? of_tail >= subtree.begin_of_tail && of_tail < subtree.end_of_tail
-                          : row >= structure->first_column[subtree.begin]
-                                && row < structure->first_column[subtree.end]);
+          EXPECT_EQ(block.begin, begin);
+          EXPECT_EQ(block.n_below, n_rows - block.column - block.width);
+          EXPECT_EQ(block.begin % slab_rows, 0u);
+          std::size_t lower = 0, upper = 0; // slab by slab
+          for (int row = 0; row < block.width; row += slab_rows)
+          {
+            EXPECT_EQ(PanelBlock::lower_slab(row), lower);
+            EXPECT_EQ(block.upper_slab(row), upper);
+            lower += block.slab_height(row) * (row + block.slab_height(row));
+            upper += block.slab_height(row) * (block.width - row);
+          }
+          EXPECT_EQ(lower, upper);
+          EXPECT_EQ(block.triangle_size(), aligned(lower));
+          begin = block.end();
+          if (block.column + block.width == n)
+            break;
+        }
+        EXPECT_EQ(begin, structure->first_value[s + 1] - structure->first_value[s]);
+        std::size_t row = structure->first_row[s] + n;
+        for (std::size_t r = structure->first_run[s]; r < structure->first_run[s + 1]; ++r)
+        {
+          const auto [place, length] = structure->runs[r];
+          ASSERT_TRUE(length > 0 && length <= slab_rows);
+          for (int i = 0; i < length; ++i)
+            EXPECT_EQ(structure->place_in_parent[row++], place + i);
+        }
+        EXPECT_EQ(row, structure->first_row[s + 1]);
+      }
+    }
+
+    TEST(FactorStructureTest, EachSubtreeIsARangeAndItsParentIsOfTheTop)
+    {
+      const auto        structure = structure_of(laplacian(16, 0.).pattern);
+      std::vector<bool> is_of_top(structure->n_supernodes(), false);
+      for (const int s : structure->top)
+        is_of_top[s] = true;
+      for (const auto &subtree : structure->subtrees)
+        for (int s = subtree.begin; s < subtree.end; ++s)
+        {
+          EXPECT_FALSE(is_of_top[s]);
+          const int parent = structure->parent[s];
+          EXPECT_TRUE(parent < 0 || is_of_top[parent] || (parent > s && parent < subtree.end));
         }
     }
   } // namespace
