@@ -18,7 +18,7 @@ namespace Exemplar
     constexpr double part_left = 0.1;
 
     /// Of additive advancement, which takes 157 to 314 rounds at most in random pairs.
-    constexpr unsigned int max_rounds = 1000;
+    constexpr unsigned int max_advances = 1000;
 
     /// Of an obstacle in one go, so that its way in space is almost straight [rad].
     constexpr double greatest_turn_at_once = 0.0873;
@@ -276,7 +276,7 @@ namespace Exemplar
     if (!(at.distance > 0.))
       return 0.;
     double part = (at.distance - left) / speed, tried = part;
-    for (unsigned int round = 0; round < max_rounds; ++round)
+    for (unsigned int round = 0; round < max_advances; ++round)
     {
       tried = std::min(tried, longest);
       std::array<SpaceVector3, 3> moved;
