@@ -101,17 +101,18 @@ namespace Exemplar
     potential.set_time(trial.time, trial);
     rebuild_metrics(accepted, step_size);
     prediction.predict(accepted, step_size, trial);
-    bool has_metric = false;
+    bool       has_metric = false;
+    const auto follow     = [&](std::vector<double> &forces)
+    {
+      if (!has_metric)
+        begin_with_metric(accepted, step_size);
+      has_metric = true;
+      metric.rotate_back(forces);
+      metric.apply(forces);
+      metric.rotate_forth(forces);
+    };
     motion.move(accepted.time, accepted.positions, trial.time, trial.positions,
-                [&](std::vector<double> &forces)
-                {
-                  if (!has_metric)
-                    begin_with_metric(accepted, step_size);
-                  has_metric = true;
-                  metric.rotate_back(forces);
-                  metric.apply(forces);
-                  metric.rotate_forth(forces);
-                });
+                std::cref(follow)); // a copy would ask for memory in each step
     potential.minimize_over_weights(trial, RotationUse::update, evaluation);
     potential.renew(trial, evaluation, false);
   }

@@ -9,6 +9,7 @@
 #include <exemplar/potential/patch_volumes.h>
 #include <exemplar/potential/potential_term.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,13 @@ namespace Exemplar
     explicit PatchDamping(const std::size_t n_patches)
         : past_means(n_patches, 0.), factors(n_patches, 0.)
     {
+    }
+
+    void
+    clear()
+    {
+      std::fill(past_means.begin(), past_means.end(), 0.);
+      std::fill(factors.begin(), factors.end(), 0.);
     }
 
     std::vector<double> past_means; ///< sum_m c_m theta_p(x_m)
@@ -69,7 +77,7 @@ namespace Exemplar
     void
     leave_step()
     {
-      damping = PatchDamping(patches.size());
+      damping.clear();
     }
 
     /// Find the means of the dilatations that the cells have found at these positions, CellField::get_dilatation().

@@ -41,7 +41,7 @@ namespace Exemplar::Testing
                                     "set Friction = 0.5\n end\nend\n";
 
     const std::vector<std::string> shapes
-        = { "plane 0 0 -0.75  0.1 0.2 1",          "sphere 2.1 0.1 -1.45 0.7",
+        = { "plane 0 0 -0.9  0.1 0.2 1",           "sphere 2.1 0.1 -1.45 0.7",
             "capsule 1 0.2 -1.2 3 0.25 -1.25 0.4", "capsule 1 0 -1.2 3 0 -1.2 0.4",
             "box 1.2 -0.3 -2 2.7 1 -0.75",         "inside box -3 -3 -0.75 7 3 3" };
 
