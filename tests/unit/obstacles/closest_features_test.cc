@@ -66,7 +66,7 @@ namespace Exemplar::Testing
   TEST(ClosestFeatures, TriangleAndPointAreThoseOfASearch)
   {
     Places place;
-    for (unsigned int n = 0; n < 2000; ++n)
+    for (unsigned int n = 0; n < 200; ++n)
     {
       const std::array<SpaceVector3, 3> x{ { place(), place(), place() } };
       const SpaceVector3                p        = place();
@@ -87,7 +87,7 @@ namespace Exemplar::Testing
   TEST(ClosestFeatures, EdgesAreThoseOfASearch)
   {
     Places place;
-    for (unsigned int n = 0; n < 2000; ++n)
+    for (unsigned int n = 0; n < 200; ++n)
     {
       std::array<SpaceVector3, 2> x{ { place(), place() } }, q{ { place(), place() } };
       if (n % 5 == 0) // parallel
