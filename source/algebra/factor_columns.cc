@@ -75,8 +75,8 @@ namespace Exemplar
   std::size_t
   FactorColumns::memory_consumption() const
   {
-    std::size_t bytes = sizeof(int) * (row_of.size() + supernode_of.size())
-                        + sizeof(float) * vector.size();
+    std::size_t bytes
+        = sizeof(int) * (row_of.size() + supernode_of.size()) + sizeof(float) * vector.size();
     for (const Column &column : columns)
       bytes
           += sizeof(int) * column.supernodes.capacity() + sizeof(float) * column.values.capacity();

@@ -88,8 +88,10 @@ namespace Exemplar
     if (info.library != "unknown")
       return "";
     return "BLAS is not OpenBLAS but " + info.file
-           + ". If that is the reference BLAS, factorisations by CHOLMOD and UMFPACK take four to five "
-             "times as long as they need. Install OpenBLAS; on Debian: apt-get install libopenblas0-pthread, or if "
+           + ". If that is the reference BLAS, factorisations by CHOLMOD and UMFPACK take four to "
+             "five "
+             "times as long as they need. Install OpenBLAS; on Debian: apt-get install "
+             "libopenblas0-pthread, or if "
              "it is there choose it by update-alternatives.";
   }
 

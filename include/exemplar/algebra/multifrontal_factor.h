@@ -77,6 +77,7 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
+    /// Gives aligned memory back.
     struct Free
     {
       void
