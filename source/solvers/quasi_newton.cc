@@ -387,11 +387,11 @@ namespace Exemplar
       }
       else if (is_solved)
         break;
-      memory.old_weights            = trial.weights;
-      const double       slope      = find_step(trial, evaluation, iteration);
-      const unsigned int most       = in_contact ? max_contact_iterations : max_iterations;
-      const bool         is_descent = n_with_metric < most && slope < 0.
-                              && take_step(slope, trial, evaluation, report);
+      memory.old_weights       = trial.weights;
+      const double       slope = find_step(trial, evaluation, iteration);
+      const unsigned int most  = in_contact ? max_contact_iterations : max_iterations;
+      const bool         is_descent
+          = n_with_metric < most && slope < 0. && take_step(slope, trial, evaluation, report);
       if (!is_descent)
       {
         if (++n_metrics > max_metrics)
@@ -473,12 +473,12 @@ namespace Exemplar
       return 0;
     using dealii::MemoryConsumption::memory_consumption;
     const Iteration &iteration = memory.iteration;
-    return metric.memory_consumption() + contact.memory_consumption() + history.positions.memory_consumption()
-           + lbfgs.memory_consumption() + prediction.memory_consumption()
-           + memory_consumption(node_rotations) + memory_consumption(iteration.gradient)
-           + memory_consumption(iteration.direct) + memory_consumption(iteration.rotated)
-           + memory_consumption(memory.old_gradient) + memory.displacement.memory_consumption()
-           + memory.trial.positions.memory_consumption()
+    return metric.memory_consumption() + contact.memory_consumption()
+           + history.positions.memory_consumption() + lbfgs.memory_consumption()
+           + prediction.memory_consumption() + memory_consumption(node_rotations)
+           + memory_consumption(iteration.gradient) + memory_consumption(iteration.direct)
+           + memory_consumption(iteration.rotated) + memory_consumption(memory.old_gradient)
+           + memory.displacement.memory_consumption() + memory.trial.positions.memory_consumption()
            + memory.trial.velocities.memory_consumption();
   }
 } // namespace Exemplar

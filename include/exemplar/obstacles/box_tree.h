@@ -41,7 +41,7 @@ namespace Exemplar
       add(other.high);
     }
 
-    /// The same, wider by `range` to all sides.
+    /// This box, wider by `range` to all sides.
     AxisBox
     widened(const double range) const
     {

@@ -23,6 +23,7 @@ namespace Exemplar
     void
     set_material(const Material &material);
 
+    /// A flat triangle of the body's surface.
     struct Triangle
     {
       std::array<unsigned int, 3> nodes; ///< outwards, counterclockwise
@@ -31,6 +32,7 @@ namespace Exemplar
       double                      share = 0.; ///< [N]
     };
 
+    /// An edge between two triangles of the surface.
     struct Edge
     {
       std::array<unsigned int, 2> nodes;      ///< ascending
@@ -38,6 +40,7 @@ namespace Exemplar
       double                      share = 0.; ///< [N]
     };
 
+    /// A node of the surface.
     struct Node
     {
       unsigned int node;

@@ -126,7 +126,7 @@ namespace Exemplar
     std::size_t
     memory_consumption() const override;
 
-    /// Of each obstacle. All processes must call this.
+    /// The results of each obstacle. All processes must call this.
     std::vector<ObstacleReport>
     report() const;
 
@@ -135,7 +135,7 @@ namespace Exemplar
     contacts(const Vector &positions, double range = 1.) const;
 
   private:
-    /// Of an obstacle at the end of a step, and since the beginning.
+    /// What an obstacle has done at the end of a step, and since the beginning.
     struct Sums
     {
       SpaceVector3 force, torque; ///< on the body [N], [N m]

@@ -79,7 +79,7 @@ namespace Exemplar
     }
 
   private:
-    /// By degree of freedom, out of the frame of the metric.
+    /// A step by degree of freedom, out of the frame of the metric.
     Vector
     displacement(const std::vector<double> &step) const;
 

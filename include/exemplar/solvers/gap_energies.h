@@ -90,6 +90,7 @@ namespace Exemplar
     longest_part(const std::vector<double> &changes, const std::vector<double> &further) const;
 
   private:
+    /// How far a gap slips along its two directions across the normal, and the length of that [m].
     struct Slip
     {
       double x, y, length;

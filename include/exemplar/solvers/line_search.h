@@ -47,7 +47,7 @@ namespace Exemplar
                        Vector                     &to,
                        Vector                     &displacement);
 
-  /// The same with memory of its own.
+  /// keep_within_max_step() with memory of its own.
   inline void
   keep_within_max_step(const IncrementalPotential &potential, const Vector &from, Vector &to)
   {

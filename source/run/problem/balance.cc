@@ -73,12 +73,13 @@ namespace Exemplar
           : body(body), exchange(body.exchange()), free_dofs(free_dofs),
             weights(examples.weights.size(), 0.),
             cells(elastic_parts(parameters, body, examples.poses, examples.weights, free_dofs)),
-            potential(cells,
-                      examples.weights,
-                      free_dofs,
-                      {},
-                      nullptr,
-                      is_assembled_in_parts(parameters.solver, body.fe_space, examples.weights.size())),
+            potential(
+                cells,
+                examples.weights,
+                free_dofs,
+                {},
+                nullptr,
+                is_assembled_in_parts(parameters.solver, body.fe_space, examples.weights.size())),
             system(make_bordered_system(parameters.solver, potential))
       {
         ElasticEvaluation evaluation; // finds the rotations
