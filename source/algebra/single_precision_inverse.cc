@@ -10,6 +10,6 @@ namespace Exemplar
     const FactorStructure &structure = factor->get_structure();
     const auto             n         = static_cast<double>(structure.n()),
                n_values              = static_cast<double>(structure.n_values());
-    return (0.022 * structure.n_operations + 7. * n_values) / (60. * n + 0.25 * n_values);
+    return (0.0065 * structure.n_operations + 2.7 * n_values + 270. * n) / (115. * n + 0.2 * n_values);
   }
 } // namespace Exemplar
