@@ -71,8 +71,7 @@ namespace Exemplar::Testing
 {
   namespace
   {
-    /// How often the tenth step of a scene asks for memory, beyond the report's history, which grows by doubling, and
-    /// two vectors in each solve with the factor.
+    /// How often the tenth step of a scene asks for memory, beyond the report's history, which grows by doubling.
     long
     n_in_tenth_step(const std::vector<std::string> &overrides)
     {
@@ -95,7 +94,7 @@ namespace Exemplar::Testing
       for (std::size_t capacity = 0; capacity < report.residual_history.size();
            capacity             = std::max<std::size_t>(1, 2 * capacity))
         ++n_of_history;
-      return n - n_of_history - 2 * static_cast<long>(report.iterations);
+      return n - n_of_history;
     }
 
     TEST(Allocations, NoneInTheStepsOfQuasiNewton)
