@@ -33,13 +33,13 @@ namespace Exemplar
     return fmt::format("{}_{}", name_of_region(prefix, examples, weight / n), weight % n);
   }
 
-  /// Short name of an example: its file without folders and extension, "rest", or "formula i".
+  /// Short name of an example: its file without folders and extension, "rest", or "example i".
   inline std::string
   short_name_of_pose(const ExampleTargets &examples, const unsigned int i)
   {
     const std::string &name = examples.name(i);
     return name.find(';') == std::string::npos ? std::filesystem::path(name).stem().string()
-                                               : fmt::format("formula {}", i); // as it is long
+                                               : fmt::format("example {}", i); // a formula is long
   }
 } // namespace Exemplar
 
