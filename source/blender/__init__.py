@@ -250,7 +250,7 @@ def show_result(job):
     scene = bpy.data.scenes.get(Running.scene) or bpy.context.scene
     with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0]):
         changed = bring_in(job)
-    Running.said = in_words("\n".join(["Done.", *changed, *job.messages()]))
+    Running.said = in_words("\n".join(["Done.", *Running.shot.notes, *changed, *job.messages()]))
     try:
         bpy.ops.ed.undo_push(message="exemplar result")
     except RuntimeError:

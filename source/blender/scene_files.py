@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .exemplar_blender import Failure
-from .surfaces import Surface, at_rest, in_world, worn_by
+from .surfaces import Surface, at_rest, group_weights, in_world, worn_by
 
 # Painted vertex groups of these names become maps: the key, and the factors of the weights 0 and 1.
 PAINTED = {"exemplar stiffness": ("Young's modulus map", (0.1, 10.)), "exemplar density": ("Density map", (0.1, 10.)),
@@ -29,6 +29,7 @@ class Shot:
     regions: list = field(default_factory=list)  # names of the painted regions
     n_frames: int = 0  # after the first one
     steps: int = 1     # a frame
+    notes: list = field(default_factory=list)  # what the artist should know
 
 
 def unit_scale(scene):
@@ -115,6 +116,8 @@ def check(body, settings, scene):
     for name in (settings.follow, settings.pin):
         if name and name not in body.vertex_groups:
             raise Failure(f"{body.name} has no vertex group '{name}'. Choose another, or none.")
+        if name and not group_weights(body, body.data, name).max() > .5:
+            raise Failure(f"No vertex of {body.name} has a weight above 0.5 in the vertex group '{name}'. Paint more, or choose another.")
     if settings.regions == "PAINTED" and not regions_of(body):
         raise Failure(f"Regions are to be painted, but no vertex group of {body.name} is called '{REGION}' and a name. Paint one, or set "
                       "Regions to None.")
@@ -161,6 +164,12 @@ def is_balanced(settings, scene, handles):
     return settings.balanced and bool(gravity_of(scene).any()) and any(map(from_the_start, handles.values()))
 
 
+def notes_of(body, settings, scene, is_posed):
+    if settings.balanced and gravity_of(scene).any() and not is_balanced(settings, scene, handles_of(settings, scene, is_posed)):
+        return [f"Nothing holds {body.name} in the first frame, so it falls, and Balanced does nothing: choose Follow or Pin."]
+    return []
+
+
 def truth(value):
     return str(value).lower()
 
@@ -173,11 +182,11 @@ def scene_text(body, settings, scene, shot, painted, is_posed):
                  *(f"worn_{i}.obj is the object {name}." for i, (name, _) in enumerate(shot.worn, 1)),
                  *(f"Region {i} is the vertex group {name}." for i, name in enumerate(shot.regions, 1))])
     keys.add("", Scene="dynamic")
-    mesh = {"File": "body.obj", "Cells": settings.cells, "Repair": truth(settings.repair), "Scale": f"{unit_scale(scene):.9g}"}
+    mesh = {"File": "body.obj", "Cells": settings.cells, "Repair": truth(settings.repair), "Scale": f"{unit_scale(scene):.7g}"}
     if shot.worn:
         mesh["Carry"] = ", ".join(f"worn_{i}.obj" for i in range(1, len(shot.worn) + 1))
     keys.add("Mesh", **mesh)
-    material = {"Young's modulus": f"{settings.stiffness:.9g}"}
+    material = {"Young's modulus": f"{settings.stiffness:.7g}"}
     for name in painted:
         key, factors = PAINTED[name]
         column = name.split()[1]
@@ -185,7 +194,7 @@ def scene_text(body, settings, scene, shot, painted, is_posed):
     keys.add("Material", **material)
     if shot.poses:
         examples = {"Poses": ", ".join(f"pose_{i}.obj" for i in range(1, len(shot.poses) + 1)),
-                    "Importance": f"{settings.importance:.9g}", "Weights": settings.weights.lower()}
+                    "Importance": f"{settings.importance:.7g}", "Weights": settings.weights.lower()}
         if shot.regions:
             examples["Weight maps"] = ", ".join(f"groups.csv:region_{i}" for i in range(1, len(shot.regions) + 1))
         keys.add("Examples", **examples)
@@ -196,11 +205,11 @@ def scene_text(body, settings, scene, shot, painted, is_posed):
         keys.add(f"Handles/{name}", **of_handle)
     gravity = gravity_of(scene)
     if gravity.any():
-        keys.add("Loads", Gravity=", ".join(f"{g:.9g}" for g in gravity), Balanced=truth(is_balanced(settings, scene, handles)))
+        keys.add("Loads", Gravity=", ".join(f"{g:.7g}" for g in gravity), Balanced=truth(is_balanced(settings, scene, handles)))
     if is_posed:
         keys.add("Initial", Pose="start.obj")
     keys.add("Time", Step=f"{1. / (rate * settings.steps):.12g}", End=f"{shot.n_frames / rate:.12g}",
-             Mass_damping=f"{settings.damping:.9g}", Stiffness_damping=f"{settings.inner_damping:.9g}")
+             Mass_damping=f"{settings.damping:.7g}", Stiffness_damping=f"{settings.inner_damping:.7g}")
     keys.add("Output", Every=settings.steps, Formats="pc2")
     return keys.text()
 
@@ -262,6 +271,7 @@ def write_scene(body, settings, scene, directory):
         painted = [name for name in PAINTED if name in body.vertex_groups]
         write_tables(surface, settings, painted, shot.regions, directory)
         is_posed = write_motion(surface, settings, scene, directory)
+        shot.notes = notes_of(body, settings, scene, is_posed)
     finally:
         surface.free()
         scene.frame_set(shown)
