@@ -226,16 +226,25 @@ def relative(file):
         return str(file)
 
 
-def play_cache(shown, name, file, start):
-    """A modifier that puts the vertices where a .pc2 file has them, from the frame `start` on."""
-    cache = shown.modifiers.new(name, "MESH_CACHE")
+def new_modifier(shown, name, kind, index=None):
+    """A modifier at a place in the stack, else the last one."""
+    modifier = shown.modifiers.new(name, kind)
+    if index is not None and index < len(shown.modifiers) - 1:
+        with bpy.context.temp_override(object=shown, active_object=shown):
+            bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=index)
+    return modifier
+
+
+def play_cache(shown, name, file, start, index=None):
+    """A modifier, at a place in the stack, that puts the vertices where a .pc2 file has them, from the frame `start` on."""
+    cache = new_modifier(shown, name, "MESH_CACHE", index)
     cache.cache_format, cache.filepath, cache.frame_start, cache.interpolation = "PC2", relative(file), start, "LINEAR"
     return cache
 
 
-def add_residual(shown, rest, residual, start, file):
-    """Hidden points play the residual (frames, n, 3) from a point cache; a modifier, the last one, adds it to the keys' sum. The points,
-    and the modifier that plays."""
+def add_residual(shown, rest, residual, start, file, index=None):
+    """Hidden points play the residual (frames, n, 3) from a point cache; a modifier, at a place in the stack, adds it to the keys' sum. The
+    points, and the modifier that plays."""
     rest = rest.astype(np.float32)
     write_pc2(file, rest + residual)
     name = f"{shown.name} residual"
@@ -248,7 +257,7 @@ def add_residual(shown, rest, residual, start, file):
     player.hide_render = True
     player.hide_set(True)
     player.parent = shown
-    modifier = shown.modifiers.new(RESIDUAL, "NODES")
+    modifier = new_modifier(shown, RESIDUAL, "NODES", index)
     modifier.node_group = residual_nodes(player)
     return player, cache
 

@@ -8,7 +8,7 @@ import numpy as np
 from mathutils import Matrix
 
 from . import exemplar_blender
-from .exemplar_blender import RESIDUAL, Failure
+from .exemplar_blender import Failure
 from .surfaces import Surface, in_object
 
 PLACE = ("location", "rotation", "scale", "delta_")  # properties that move an object as a whole
@@ -29,8 +29,8 @@ def make_result(body, shot, output, start):
     prefix = free_prefix(output.parent)
     places = in_object(run.places, result.matrix_world)
     residual = exemplar_blender.residual_of(places, surface.rest, {name: surface.shapes[name] for name in values}, values)
-    player, _ = exemplar_blender.add_residual(result, surface.rest, residual, start, Path(f"{prefix}residual.pc2"))
-    place_modifier(result, RESIDUAL, len(surface.replaced))
+    player, _ = exemplar_blender.add_residual(result, surface.rest, residual, start, Path(f"{prefix}residual.pc2"),
+                                              len(surface.replaced))
     return result, player, prefix
 
 
@@ -49,8 +49,7 @@ def make_worn(child, matrix, result, file, cache_file, start):
         return None
     shown = still_copy(child, surface, matrix, result)
     exemplar_blender.write_pc2(cache_file, in_object(places, shown.matrix_world))
-    cache = exemplar_blender.play_cache(shown, "exemplar", cache_file, start)
-    place_modifier(shown, cache.name, len(surface.replaced))
+    exemplar_blender.play_cache(shown, "exemplar", cache_file, start, len(surface.replaced))
     return shown
 
 
@@ -124,12 +123,6 @@ def weights_of_keys(result, surface, shot, run):
                 key.data.foreach_set("co", surface.shapes[key.name].astype(np.float32).ravel())
                 values[key.name] = weights[weight]
     return values
-
-
-def place_modifier(shown, name, index):
-    if shown.modifiers.find(name) != index:
-        with bpy.context.temp_override(object=shown, active_object=shown):
-            bpy.ops.object.modifier_move_to_index(modifier=name, index=index)
 
 
 def retarget(made):

@@ -45,24 +45,11 @@ def gravity_of(scene):
     return gravity if untouched else gravity * unit_scale(scene)
 
 
-def size_of(surface, matrix):
-    return float(np.linalg.norm(np.ptp(in_world(surface.rest, matrix), axis=0)))
-
-
 def examples_of(surface, keys):
     """{name: local places} of the shape keys that are not muted and move something."""
     size = np.linalg.norm(np.ptp(surface.rest, axis=0))
     return {name: shape for name, shape in surface.shapes.items()
             if not keys.key_blocks[name].mute and np.abs(shape - surface.rest).max() > 1e-7 * size}
-
-
-def motion_of(surface, scene):
-    """Places in the world (frames, vertices, 3) in all frames of the scene."""
-    places = []
-    for frame in range(scene.frame_start, scene.frame_end + 1):
-        scene.frame_set(frame)
-        places.append(in_world(surface.moved(), surface.shown.matrix_world))
-    return np.array(places)
 
 
 def write_obj(path, places, faces):
@@ -238,18 +225,17 @@ def write_tables(surface, settings, painted, regions, directory):
 
 def write_motion(surface, settings, scene, directory):
     """Caches of the handles, and the pose of the first frame. Whether that is another one than at rest."""
-    scene.frame_set(scene.frame_start)
-    matrix = surface.shown.matrix_world
-    start = in_world(surface.moved(), matrix)
-    is_posed = np.abs(start - in_world(surface.rest, matrix)).max() > STILL * size_of(surface, matrix)
+    frames = range(scene.frame_start, scene.frame_end + 1 if settings.follow else scene.frame_start + 1)
+    rest, places = in_world(surface.rest, surface.shown.matrix_world), surface.motion(scene, frames)
+    start = places[0]
+    is_posed = bool(np.abs(start - rest).max() > STILL * np.linalg.norm(np.ptp(rest, axis=0)))
     if is_posed:
         write_obj(directory / "start.obj", start, surface.faces())
         if settings.pin:
             write_mdd(directory / "pin.mdd", start[None], [0.])
     if settings.follow:
-        places = motion_of(surface, scene)
         write_mdd(directory / "rig.mdd", places, np.arange(len(places)) / frames_per_second(scene))
-    return bool(is_posed)
+    return is_posed
 
 
 def write_scene(body, settings, scene, directory):

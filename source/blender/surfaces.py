@@ -118,13 +118,20 @@ class Surface:
     def group_weights(self, name):
         return group_weights(self.shown, self.mesh, name)
 
-    def moved(self):
-        """Local places to which what the simulation replaces, and shape keys, move the vertices in the current frame."""
-        with only_modifiers(self.shown, self.replaced), evaluated_mesh(self.shown) as mesh:
+    def motion(self, scene, frames):
+        """Where in the world what the simulation replaces, and shape keys, take the vertices in frames of a scene: (frames, n, 3)."""
+        places = []
+        with only_modifiers(self.shown, self.replaced):
+            for frame in frames:
+                scene.frame_set(frame)
+                places.append(in_world(self._moved(frame), self.shown.matrix_world))
+        return np.array(places)
+
+    def _moved(self, frame):
+        with evaluated_mesh(self.shown) as mesh:
             if len(mesh.vertices) != len(self.rest):
-                raise Failure(f"{', '.join(self.replaced)} of {self.shown.name} make {len(mesh.vertices)} vertices in frame "
-                              f"{bpy.context.scene.frame_current} and {len(self.rest)} at rest. Let Mirror not merge, or apply the "
-                              "modifiers that come before the armature.")
+                raise Failure(f"{', '.join(self.replaced)} of {self.shown.name} make {len(mesh.vertices)} vertices in frame {frame} and "
+                              f"{len(self.rest)} at rest. Let Mirror not merge, or apply the modifiers that come before the armature.")
             return coordinates(mesh.vertices)
 
     def _n_evaluated(self):

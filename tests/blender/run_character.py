@@ -128,14 +128,19 @@ def case_character():
     body.modifiers.new("fine", "SUBSURF")
     body.parent = rig
     make_clothes(body, rig)
-    hand = make_object("prop of nobody", *bar())
-    hand.location = (9., 0., 0.)
+    make_object("prop of nobody", *bar()).location = (9., 0., 0.)
+    hug = bpy.data.objects["collar"].modifiers.new("hug", "SHRINKWRAP")
+    hug.target, hug.show_viewport = body, False
+    body.modifiers["fine"].keyframe_insert("levels", frame=3)
+    body.keyframe_insert("location", frame=3)
     found = {"before places": [list(body.matrix_world @ vertex.co) for vertex in body.data.vertices]}
     found.update(said=run(body), before=what_it_has(body), prm=scene_file())
     shown = bpy.data.objects["bar result"]
     found.update(after=what_it_has(shown), modifiers=modifiers_of(shown), hidden=[body.hide_get(), body.hide_render])
     found["values"] = {curve.data_path: curve.keyframe_points[-1].co[1] for curve in shown.data.shape_keys.animation_data.action.fcurves}
     found["fine"] = len(places(shown, 18))
+    found["hug"] = bpy.data.objects["collar result"].modifiers["hug"].target.name
+    found["curves"] = [curve.data_path for curve in shown.animation_data.action.fcurves]
     found["objects"] = sorted(item.name for item in bpy.data.objects)
     found["caches"] = [modifier.filepath for item in bpy.data.objects for modifier in item.modifiers if modifier.type == "MESH_CACHE"]
     for name in ("collar", "eye"):
@@ -145,6 +150,11 @@ def case_character():
     body.modifiers["fine"].show_viewport = False
     exemplar.show_originals(body.exemplar.token)
     found["rig"] = [places(body, frame) for frame in (3, 18)]
+    body.modifiers["rig"].show_viewport = False
+    body.data.shape_keys.key_blocks["more"].value = 1.
+    found["more"] = places(body, 3)
+    body.data.shape_keys.key_blocks["more"].value = 0.
+    found["pose 2"] = exemplar.exemplar_blender.read_obj(exemplar.directory_of(body) / "pose_2.obj")[0].tolist()
 
     # the folder goes elsewhere
     bpy.ops.wm.save_mainfile()
