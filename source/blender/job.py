@@ -38,12 +38,16 @@ class Job:
 
     def newest_frame(self):
         """Places of the newest frame, if there is one since this was called last."""
-        for frame in range(self.n_frames, self.shown, -1):
-            file = self.output / f"frame_{frame * self.steps:04d}.pc2"
-            if file.exists():
-                self.shown = frame
-                return read_pc2(file)[0]
-        return None
+        newest = self.shown
+        while newest < self.n_frames and self._frame_file(newest + 1).exists():
+            newest += 1
+        if newest == self.shown:
+            return None
+        self.shown = newest
+        return read_pc2(self._frame_file(newest))[0]
+
+    def _frame_file(self, frame):
+        return self.output / f"frame_{frame * self.steps:04d}.pc2"
 
     def cancel(self):
         """Within a second: a run that does not end after its step is killed."""

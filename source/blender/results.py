@@ -27,10 +27,11 @@ def make_result(body, shot, output, start):
     if values:
         exemplar_blender.animate_keys(result, values, start)
     prefix = free_prefix(output.parent)
-    places = in_object(run.places, result.matrix_world)
+    places = in_object(run.places, result.matrix_basis)
     residual = exemplar_blender.residual_of(places, surface.rest, {name: surface.shapes[name] for name in values}, values)
     player, _ = exemplar_blender.add_residual(result, surface.rest, residual, start, Path(f"{prefix}residual.pc2"),
                                               len(surface.replaced))
+    show(result, body)
     return result, player, prefix
 
 
@@ -48,17 +49,17 @@ def make_worn(child, matrix, result, file, cache_file, start):
         surface.free()
         return None
     shown = still_copy(child, surface, matrix, result)
-    exemplar_blender.write_pc2(cache_file, in_object(places, shown.matrix_world))
+    exemplar_blender.write_pc2(cache_file, in_object(places, shown.matrix_basis))
     exemplar_blender.play_cache(shown, "exemplar", cache_file, start, len(surface.replaced))
+    show(shown, child)
     return shown
 
 
 def still_copy(shown, surface, matrix, parent=None):
-    """A copy of an object and its mesh that stands still, with the modifiers off for which the simulation stands."""
+    """A copy of an object and its mesh that stands still, with the modifiers off for which the simulation stands; in no collection. Its
+    place is its matrix_basis, also with a parent, which has none: a matrix with shear is no place of an object."""
     copy = shown.copy()
     copy.data = surface.mesh if surface.is_made else shown.data.copy()
-    collections = [c for c in shown.users_collection if c in bpy.context.scene.collection.children_recursive]
-    (collections or [bpy.context.scene.collection])[0].objects.link(copy)
     copy.exemplar.token = ""  # another body
     keep_modifiers_animation(copy)
     copy.constraints.clear()
@@ -67,16 +68,21 @@ def still_copy(shown, surface, matrix, parent=None):
     copy.parent = parent
     copy.parent_type, copy.parent_bone = "OBJECT", ""
     if parent is not None:
-        copy.matrix_parent_inverse = parent.matrix_world.inverted()
-    copy.matrix_world = Matrix(matrix)
+        copy.matrix_parent_inverse = parent.matrix_basis.inverted()
+    copy.matrix_basis = Matrix(matrix)
     for modifier in copy.modifiers[:len(surface.replaced)]:
         modifier.show_viewport = modifier.show_render = False
     if surface.is_made:
         rest = shown.data.shape_keys.reference_key.name if surface.shapes else ""
         exemplar_blender.add_shape_keys(copy, {name: (name, shape) for name, shape in surface.shapes.items()}, rest)
     silence_keys(copy)
-    bpy.context.view_layer.update()
     return copy
+
+
+def show(copy, original):
+    """Where the original is. Until then it is not evaluated whenever it is changed."""
+    collections = [c for c in original.users_collection if c in bpy.context.scene.collection.children_recursive]
+    (collections or [bpy.context.scene.collection])[0].objects.link(copy)
 
 
 def keep_modifiers_animation(copy):
@@ -119,7 +125,7 @@ def weights_of_keys(result, surface, shot, run):
             if weight in weights:
                 places = exemplar_blender.read_obj(run.directory / f"{weight}.obj")[0]
                 key = result.shape_key_add(name=f"{pose} {region}", from_mix=False)
-                surface.shapes[key.name] = in_object(places, result.matrix_world)
+                surface.shapes[key.name] = in_object(places, result.matrix_basis)
                 key.data.foreach_set("co", surface.shapes[key.name].astype(np.float32).ravel())
                 values[key.name] = weights[weight]
     return values
