@@ -145,7 +145,9 @@ class Surface:
         bpy.context.scene.collection.objects.link(stand_in)
         try:
             if own.shape_keys:
+                keys = own.shape_keys
                 stand_in.shape_key_clear()
+                bpy.data.batch_remove([keys])  # which Blender forgets to do, and tells of when the .blend is saved
             for modifier in list(stand_in.modifiers):
                 if modifier.name not in self.replaced or modifier.type in MOVING:
                     stand_in.modifiers.remove(modifier)

@@ -189,6 +189,7 @@ def case_half():
     found.update(after=what_it_has(shown), modifiers=modifiers_of(shown), vertices=len(shown.data.vertices))
     found["run"], found["shown"] = run_places(), without_what_is_behind(shown, range(3, 19))
     body.modifiers.remove(body.modifiers["rig"])
+    found["stray keys"] = sum(keys.user is None for keys in bpy.data.shape_keys)
     found["without rig"] = [run(body, follow="", stiffness=2e6), len(bpy.data.objects["bar result"].data.vertices)]
     return found
 

@@ -139,6 +139,7 @@ class Characters(SceneTest):
         self.assertEqual((after["materials"], after["uv name"], set(after["smooth"])), (["fur"], "skin", {True}))
         self.assertEqual(sum(0 in groups for groups in after["group of"]), 25)
         self.assert_shows_the_run(found)
+        self.assertEqual(found["stray keys"], 0)
         self.assertEqual(found["without rig"], ["Done.", 226])
 
     def test_the_unit_of_the_scene(self):
