@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .exemplar_blender import Failure
-from .surfaces import Surface, at_rest, group_weights, in_world, worn_by
+from .surfaces import Surface, at_rest, group_weights, in_world, seen_motion, worn_by
 
 # Painted vertex groups of these names become maps: the key, and the factors of the weights 0 and 1.
 PAINTED = {"exemplar stiffness": ("Young's modulus map", (0.1, 10.)), "exemplar density": ("Density map", (0.1, 10.)),
@@ -30,6 +30,7 @@ class Shot:
     n_frames: int = 0  # after the first one
     steps: int = 1     # a frame
     notes: list = field(default_factory=list)  # what the artist should know
+    obstacles: list = field(default_factory=list)  # names of the objects with Collision physics
 
 
 def unit_scale(scene):
@@ -50,6 +51,14 @@ def examples_of(surface, keys):
     size = np.linalg.norm(np.ptp(surface.rest, axis=0))
     return {name: shape for name, shape in surface.shapes.items()
             if not keys.key_blocks[name].mute and np.abs(shape - surface.rest).max() > 1e-7 * size}
+
+
+def obstacles_of(body, scene):
+    """Meshes with Collision physics that are seen, but for the body and what it wears: what it may not pass."""
+    own = {body, *worn_by(body)}
+    return [shown for shown in scene.objects
+            if shown.type == "MESH" and shown.data.polygons and shown not in own and shown.visible_get()
+            and any(modifier.type == "COLLISION" and modifier.show_viewport for modifier in shown.modifiers)]
 
 
 def write_obj(path, places, faces):
@@ -144,15 +153,20 @@ def handles_of(settings, scene, is_posed):
     return handles
 
 
-def is_balanced(settings, scene, handles):
-    """Whether the body stands as it is drawn: something must hold it in the first frame, and something pull."""
+def is_balanced(settings, scene, shot, handles):
+    """Whether the body stands as it is drawn: something must hold it in the first frame, and something pull. Obstacles bear it otherwise."""
     def from_the_start(keys):
         return "From" not in keys and keys.get("Until") != "0"
-    return settings.balanced and bool(gravity_of(scene).any()) and any(map(from_the_start, handles.values()))
+    return settings.balanced and not shot.obstacles and bool(gravity_of(scene).any()) and any(map(from_the_start, handles.values()))
 
 
-def notes_of(body, settings, scene, is_posed):
-    if settings.balanced and gravity_of(scene).any() and not is_balanced(settings, scene, handles_of(settings, scene, is_posed)):
+def notes_of(body, settings, scene, shot, is_posed):
+    if not settings.balanced or not gravity_of(scene).any():
+        return []
+    if shot.obstacles:
+        return [f"{', '.join(shot.obstacles)}: {body.name} may not pass them, and Balanced does nothing beside Collision physics: the body sags "
+                "under its weight where it is held."]
+    if not is_balanced(settings, scene, shot, handles_of(settings, scene, is_posed)):
         return [f"Nothing holds {body.name} in the first frame, so it falls, and Balanced does nothing: choose Follow or Pin."]
     return []
 
@@ -161,13 +175,25 @@ def truth(value):
     return str(value).lower()
 
 
-def scene_text(body, settings, scene, shot, painted, is_posed):
+def write_obstacle(shown, number, scene, directory):
+    """An obstacle in the first frame, behind all of its modifiers, and its motion if it has one; its keys."""
+    faces, places = seen_motion(shown, scene, range(scene.frame_start, scene.frame_end + 1))
+    write_obj(directory / f"obstacle_{number}.obj", places[0], faces)
+    keys = {"Shape": f"surface obstacle_{number}.obj", "Friction": f"{shown.collision.friction_factor:.9g}"}
+    if np.any(places != places[0]):
+        write_mdd(directory / f"obstacle_{number}.mdd", places, np.arange(len(places)) / frames_per_second(scene))
+        keys["Follow_cache"] = f"obstacle_{number}.mdd"
+    return keys
+
+
+def scene_text(body, settings, scene, shot, painted, is_posed, obstacles):
     rate = frames_per_second(scene)
     keys = Keys([f"Expect the object {body.name} to move through the frames {scene.frame_start} to {scene.frame_end}.",
                  "Written by exemplar's add-on for Blender, which writes it anew when Run is pressed.",
                  *(f"pose_{i}.obj is the shape key {name}." for i, name in enumerate(shot.poses, 1)),
                  *(f"worn_{i}.obj is the object {name}." for i, (name, _) in enumerate(shot.worn, 1)),
-                 *(f"Region {i} is the vertex group {name}." for i, name in enumerate(shot.regions, 1))])
+                 *(f"Region {i} is the vertex group {name}." for i, name in enumerate(shot.regions, 1)),
+                 *(f"obstacle_{i}.obj is the object {name}." for i, name in enumerate(shot.obstacles, 1))])
     keys.add("", Scene="dynamic")
     mesh = {"File": "body.obj", "Cells": settings.cells, "Repair": truth(settings.repair), "Scale": f"{unit_scale(scene):.7g}"}
     if shot.worn:
@@ -190,9 +216,13 @@ def scene_text(body, settings, scene, shot, painted, is_posed):
         keys.add("Handles", Names=", ".join(handles))
     for name, of_handle in handles.items():
         keys.add(f"Handles/{name}", **of_handle)
+    if obstacles:
+        keys.add("Obstacles", Names=", ".join(obstacles))
+    for name, of_obstacle in obstacles.items():
+        keys.add(f"Obstacles/{name}", **of_obstacle)
     gravity = gravity_of(scene)
     if gravity.any():
-        keys.add("Loads", Gravity=", ".join(f"{g:.7g}" for g in gravity), Balanced=truth(is_balanced(settings, scene, handles)))
+        keys.add("Loads", Gravity=", ".join(f"{g:.7g}" for g in gravity), Balanced=truth(is_balanced(settings, scene, shot, handles)))
     if is_posed:
         keys.add("Initial", Pose="start.obj")
     keys.add("Time", Step=f"{1. / (rate * settings.steps):.12g}", End=f"{shot.n_frames / rate:.12g}",
@@ -248,18 +278,21 @@ def write_scene(body, settings, scene, directory):
     try:
         matrix, keys = body.matrix_world.copy(), body.data.shape_keys
         write_obj(directory / "body.obj", in_world(surface.rest, matrix), surface.faces())
+        found = obstacles_of(body, scene)
+        obstacles = {f"obstacle {i}": write_obstacle(obstacle, i, scene, directory) for i, obstacle in enumerate(found, 1)}
+        scene.frame_set(scene.frame_start)
         poses = examples_of(surface, keys)
         for i, shape in enumerate(poses.values(), 1):
             write_obj(directory / f"pose_{i}.obj", in_world(shape, matrix), surface.faces())
         shot = Shot(directory / "scene.prm", surface.faces(), [list(row) for row in matrix], list(poses), write_worn(body, directory),
                     regions_of(body) if settings.regions == "PAINTED" and poses else [], scene.frame_end - scene.frame_start,
-                    settings.steps)
+                    settings.steps, obstacles=[shown.name for shown in found])
         painted = [name for name in PAINTED if name in body.vertex_groups]
         write_tables(surface, settings, painted, shot.regions, directory)
         is_posed = write_motion(surface, settings, scene, directory)
-        shot.notes = notes_of(body, settings, scene, is_posed)
+        shot.notes = notes_of(body, settings, scene, shot, is_posed)
     finally:
         surface.free()
         scene.frame_set(shown)
-    shot.file.write_text(scene_text(body, settings, scene, shot, painted, is_posed), encoding="utf-8")
+    shot.file.write_text(scene_text(body, settings, scene, shot, painted, is_posed, obstacles), encoding="utf-8")
     return shot

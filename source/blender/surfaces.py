@@ -176,6 +176,22 @@ class Surface:
         return mesh, places
 
 
+def seen_motion(shown, scene, frames):
+    """Faces of an object behind all of its modifiers, and where its vertices are in the world in frames of a scene: (frames, n, 3)."""
+    places, faces = [], []
+    for frame in frames:
+        scene.frame_set(frame)
+        matrix = shown.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world
+        with evaluated_mesh(shown) as mesh:
+            if places and len(mesh.vertices) != len(places[0]):
+                raise Failure(f"{shown.name} has {len(places[0])} vertices in frame {frames[0]} and {len(mesh.vertices)} in frame {frame}. "
+                              "What has Collision physics keeps its vertices: switch off the modifier that changes their number.")
+            turn = -1 if matrix.determinant() < 0 else 1
+            faces = faces or [tuple(face.vertices)[::turn] for face in mesh.polygons]
+            places.append(in_world(coordinates(mesh.vertices), matrix))
+    return faces, np.array(places)
+
+
 def rigs_of(body):
     """Armatures that move a body: of its modifiers and among its parents."""
     rigs = [modifier.object for modifier in body.modifiers if modifier.type == "ARMATURE" and modifier.object]

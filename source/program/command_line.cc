@@ -7,28 +7,69 @@
 #include <exemplar/base/program_server.h>
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/base/version.h>
+#include <exemplar/base/whole_program.h>
+#include <exemplar/live/export_page.h>
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/argument_remedies.h>
-#include <exemplar/program/command_line.h>
-#include <exemplar/program/export_command.h>
+#include <exemplar/program/commands.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/joint_run.h>
-#include <exemplar/program/live_program.h>
-#include <exemplar/program/mesh_command.h>
 #include <exemplar/program/number_option.h>
-#include <exemplar/program/pose_command.h>
 #include <exemplar/program/run_program.h>
-#include <exemplar/program/run_scene.h>
 #include <exemplar/study/study.h>
 #include <exemplar/study/study_file.h>
 #include <exemplar/verification/verification.h>
 
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
 
 namespace Exemplar
 {
   namespace
   {
+    /// Options of `exemplar export`.
+    struct PageOptions
+    {
+      std::vector<std::string> runs; ///< output directories
+      std::string              html; ///< file of the page
+    };
+
+    /// Write a page that plays the frames of runs, and print its accuracy. Throws UserError with
+    /// nothing written.
+    void
+    write_page(const PageOptions &options)
+    {
+      const Live::RunPage page = Live::export_page(options.runs, options.html);
+      std::cout << fmt::format(
+          "{}: {} frames, {:.1f} MB; coordinates are rounded by {:.1e} m at most", options.html,
+          page.n_frames, 1e-6 * page.html.size(), page.error)
+                << std::endl;
+      require_printed();
+    }
+
+    /// Replace this process by exemplar-live, the program next to this one, with the same
+    /// arguments; returns only by UserError.
+    [[noreturn]] void
+    become_live_program(char *argv[])
+    {
+      std::error_code             ignored;
+      const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", ignored);
+      const std::string           program = (own.parent_path() / "exemplar-live").string();
+      execv(program.c_str(), argv);
+      throw UserError(program
+                      + " cannot be started, which exemplar live needs: " + std::strerror(errno)
+                      + ". " + build_whole_program + "; or install it whole.");
+    }
+
     /// All arguments of the command line.
     struct Arguments
     {

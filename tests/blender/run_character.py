@@ -223,6 +223,26 @@ def case_regions():
     return found
 
 
+def case_obstacles():
+    """A body that nothing holds falls on a floor of one face, which Subdivision makes many of, and which rises; a wall is hidden."""
+    body = make_body()
+    floor = make_object("floor", [(-5., -5., .7), (5., -5., .7), (5., 5., .7), (-5., 5., .7)], [(0, 1, 2, 3)])
+    floor.modifiers.new("fine", "SUBSURF").subdivision_type = "SIMPLE"
+    floor.modifiers.new("touch", "COLLISION")
+    floor.collision.friction_factor = .25
+    for frame, height in ((3, 0.), (18, .2)):
+        floor.location = (0., 0., height)
+        floor.keyframe_insert("location", frame=frame)
+    wall = make_object("wall", [(2., -5., 0.), (2., 5., 0.), (2., 0., 5.)], [(0, 1, 2)])
+    wall.modifiers.new("touch", "COLLISION")
+    wall.hide_set(True)
+    found = {"said": run(body, follow="", pin="", stiffness=1e6), "prm": scene_file()}
+    found["least"] = [min(x[2] for x in frame) for frame in run_places()]
+    floor.modifiers.new("grow", "BUILD").frame_duration = 10
+    found["grows"] = run(body, follow="", pin="", stiffness=1e6)
+    return found
+
+
 def case_spans():
     body = make_body()
     make_rig(body)

@@ -158,6 +158,20 @@ class Characters(SceneTest):
             self.assertIn(f"set {line}\n", found["prm"])
         self.assert_shows_the_run(found)
 
+    def test_what_has_collision_physics_is_not_passed(self):
+        found = self.use("obstacles")
+        self.assertIn("Done.", found["said"])
+        self.assertIn("floor: bar may not pass them, and Balanced does nothing", found["said"])
+        for line in ("Names = obstacle 1", "Shape = surface obstacle_1.obj", "Friction = 0.25", "Follow cache = obstacle_1.mdd", "Balanced = false"):
+            self.assertIn(f"set {line}\n", found["prm"])
+        self.assertEqual(len(found["least"]), 16)
+        for frame, least in enumerate(found["least"]):
+            self.assertGreater(least, .7 + .2 * frame / 15 - .01)  # between frames Blender eases, the floor is lower than on the straight way
+        self.assertLess(min(found["least"]), .95)  # it has fallen from 1
+        self.assertGreater(found["least"][-1], .9)
+        self.assertLess(found["least"][-1], 1.)
+        self.assertIn("What has Collision physics keeps its vertices", found["grows"])
+
     def test_caught_and_let_go(self):
         found = self.use("spans")
         self.assertEqual(found["said"], "Done.")
