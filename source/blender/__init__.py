@@ -1,22 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel "exemplar" of the 3D view: an object, its shape keys and vertex groups become a scene, which runs in the background."""
-import re
 import textwrap
 import uuid
 from pathlib import Path
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
-from . import scene_files
-from .exemplar_blender import Failure, load_run
+from . import results, scene_files
+from .exemplar_blender import Failure
 from .job import FaultSearch, Job
+from .surfaces import Surface
+from .words import in_artists_words
 
 bl_info = {"name": "exemplar", "blender": (3, 4, 0), "version": (0, 1, 0), "category": "Animation", "author": "exemplar",
            "location": "3D View > Sidebar > exemplar", "doc_url": "", "description": "Elastic bodies that bend as their shape keys say"}
 
 POLL = 0.2  # [s]
 MADE = "exemplar made"  # custom property of objects that the add-on makes: for which body, and under which name
+HIDDEN = "exemplar hidden"  # custom property of objects in whose place there is a result
 
 
 class Settings(bpy.types.PropertyGroup):
@@ -24,8 +26,25 @@ class Settings(bpy.types.PropertyGroup):
     stiffness: FloatProperty(name="Stiffness", default=1e5, min=1e-3, precision=0, description="Young's modulus [Pa]")
     importance: FloatProperty(name="Importance", default=0.9, min=0, max=1, subtype="FACTOR",
                               description="How strongly the body is pulled towards its shape keys")
+    balanced: BoolProperty(name="Balanced", default=True,
+                           description="The body stands under its weight as it is drawn, instead of sagging: it carries the stresses from "
+                                       "the beginning. Where gravity acts, and Follow or Pin holds it in the first frame")
     follow: StringProperty(name="Follow", description="Vertex group that goes where armature, modifiers and keys put it")
-    pin: StringProperty(name="Pin", description="Vertex group that stays where it is at rest")
+    pin: StringProperty(name="Pin", description="Vertex group that stays where it is in the first frame")
+    follow_from: IntProperty(name="Follow from", min=0, description="Frame in which Follow catches its vertices; 0: from the beginning")
+    follow_until: IntProperty(name="until", min=0, description="Frame in which Follow lets go; 0: never")
+    pin_from: IntProperty(name="Pin from", min=0, description="Frame in which Pin catches its vertices; 0: from the beginning")
+    pin_until: IntProperty(name="until", min=0, description="Frame in which Pin lets go; 0: never")
+    weights: EnumProperty(name="Weights", default="SIMPLEX", items=[
+        ("SIMPLEX", "Shared", "The weights of the shape keys and of the rest are not negative and sum to 1: for poses"),
+        ("FREE", "Free", "They sum to 1 and may be negative or greater than 1: keys go beyond their shapes")])
+    regions: EnumProperty(name="Regions", default="NONE", items=[
+        ("NONE", "None", "The shape keys have the same weights in the whole body"),
+        ("PAINTED", "Painted", "Each vertex group whose name begins with 'exemplar region ' has weights of its own")])
+    damping: FloatProperty(name="Damping", default=0, min=0, description="How fast all motion dies away, as in air or water [1/s]")
+    inner_damping: FloatProperty(name="Inner damping", default=0, min=0, precision=4,
+                                 description="How much the body resists bending fast, as flesh does [s]")
+    steps: IntProperty(name="Steps", default=1, min=1, max=1000, description="Steps of the simulation a frame: more for fast motion")
     repair: BoolProperty(name="Repair", description="Mend holes and crossing faces before the body is filled")
     token: StringProperty(options={"HIDDEN"})  # identity of the body, whatever its name becomes
 
@@ -46,9 +65,7 @@ class Running:
     title = ""     # name of the body at the start
     scene = ""     # name of the scene
     start = 0      # first frame of the scene
-    faces = ()     # faces of the body
-    worn = ()      # names of objects that the body carries
-    poses = ()     # names of the body's shape keys
+    shot = None    # what it was given
     said = ""      # text for the panel
 
     @classmethod
@@ -78,6 +95,22 @@ def hide(shown, hidden=True):
         shown.hide_set(hidden)
     except RuntimeError:
         pass  # the object is in no collection of this view layer, so it is not seen
+
+
+def hide_original(shown):
+    """The result stands in its place, also in renders."""
+    hide(shown)
+    if HIDDEN not in shown:
+        shown[HIDDEN] = {"body": Running.token, "rendered": not shown.hide_render}
+        shown.hide_render = True
+
+
+def show_originals(token):
+    for shown in bpy.data.objects:
+        if HIDDEN in shown and shown[HIDDEN]["body"] == token:
+            hide(shown, False)
+            shown.hide_render = not shown[HIDDEN]["rendered"]
+            del shown[HIDDEN]
 
 
 def mark(shown, name):
@@ -112,19 +145,18 @@ def start(context, body):
     scene, settings = context.scene, body.exemplar
     if not settings.token or sum(item.exemplar.token == settings.token for item in bpy.data.objects) > 1:
         settings.token = uuid.uuid4().hex  # a copy is another body
+    show_originals(settings.token)
     hide(body, False)  # hidden objects are not evaluated
     directory = directory_of(body)
     try:
-        file = scene_files.write_scene(body, settings, scene, directory)
-        job = Job(program_of(context), file, scene.frame_end - scene.frame_start)
+        shot = scene_files.write_scene(body, settings, scene, directory)
+        job = Job(program_of(context), shot.file, shot.n_frames, shot.steps)
     except OSError as error:
         raise Failure(f"{directory} cannot be written ({error.strerror}). Save the .blend elsewhere.") from error
     for result in results_of(settings.token):
         hide(result)
     Running.job, Running.search, Running.token, Running.title, Running.said = job, None, settings.token, body.name, ""
-    Running.scene, Running.start, Running.faces = scene.name, scene.frame_start, scene_files.faces_of(body)
-    Running.worn = [child.name for child in scene_files.clothes_of(body)]
-    Running.poses = list(scene_files.poses_of(body))
+    Running.scene, Running.start, Running.shot = scene.name, scene.frame_start, shot
 
 
 def poll():
@@ -152,14 +184,14 @@ def advance():
         select_faults(*Running.search.found())
     elif job.is_running():
         show_frame(job.newest_frame())
-        Running.said = f"Frame {max(job.shown, 0)} of {job.n_steps}"
+        Running.said = f"Frame {max(job.shown, 0)} of {job.n_frames}"
         return True
     elif job.failure() is None:
         show_result(job)
     else:
         remove_preview()
-        Running.said = in_artists_words(job.failure())
-        if not job.cancelled and "body.obj" in Running.said:
+        Running.said = in_words(job.failure())
+        if not job.cancelled and "body.obj" in job.failure():
             Running.search = FaultSearch(job)
             return True
     stop(Running.said)
@@ -174,6 +206,7 @@ def stop(said):
     remove_preview()
     body = Running.body()
     if body is not None and not any(not result.hide_get() for result in results_of(Running.token)):
+        show_originals(Running.token)
         hide(body, False)
     Running.job, Running.search, Running.said = None, None, said
 
@@ -198,64 +231,75 @@ def show_frame(places):
     preview = next(iter(previews()), None)
     if preview is None or len(preview.data.vertices) != len(places):
         mesh = bpy.data.meshes.new(preview_name())
-        mesh.from_pydata(places.tolist(), [], Running.faces)
+        mesh.from_pydata(places.tolist(), [], Running.shot.faces)
         preview = bpy.data.objects.new(preview_name(), mesh)
         mark(preview, preview_name())
         (bpy.data.scenes.get(Running.scene) or bpy.context.scene).collection.objects.link(preview)
         if Running.body() is not None:
-            hide(Running.body())
+            hide_original(Running.body())
     preview.data.vertices.foreach_set("co", places.astype("f4").ravel())
     preview.data.update()
 
 
 def show_result(job):
-    """The surface with its keys and weights, and what it wears, in the place of those of an earlier run."""
+    """The body and what it wears, moved, in the place of those of an earlier run."""
     remove_preview()
     for result in results_of(Running.token):
         remove_made(result)
+    show_originals(Running.token)
     scene = bpy.data.scenes.get(Running.scene) or bpy.context.scene
     with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0]):
-        result = load_run(job.output, start=Running.start, up="z", playback=False)
-        mark(result, f"{Running.title} result")
-        for child in result.children:
-            mark(child, f"{Running.title} residual")
-        for i, name in enumerate(Running.worn, 1):
-            if name in bpy.data.objects:
-                show_worn(bpy.data.objects[name], result, job.output / f"animation_worn_{i}.pc2")
-        if Running.body() is not None:
-            hide(Running.body())
-    Running.said = in_artists_words("\n".join(["Done.", *job.messages()]))
+        changed = bring_in(job)
+    Running.said = in_words("\n".join(["Done.", *Running.shot.notes, *changed, *job.messages()]))
     try:
         bpy.ops.ed.undo_push(message="exemplar result")
     except RuntimeError:
         pass  # there is no undo without a window
 
 
-def show_worn(child, result, cache_file):
-    """A copy of what the body wears, which a point cache moves; the child itself is hidden."""
-    shown = bpy.data.objects.new(f"{child.name} result", child.data.copy())
-    mark(shown, f"{child.name} result")
-    result.users_collection[0].objects.link(shown)
-    if shown.data.shape_keys:
-        shown.shape_key_clear()
-    shown.parent = result
-    cache = shown.modifiers.new("exemplar", "MESH_CACHE")
-    cache.cache_format, cache.filepath, cache.interpolation, cache.frame_start = "PC2", str(cache_file), "LINEAR", Running.start
-    hide(child)
+def bring_in(job):
+    """What the artist must know of what has changed during the run."""
+    body, changed, made = Running.body(), [], {}
+    try:
+        if body is None:
+            raise Failure(f"{Running.title} is no more.")
+        result, player, prefix = results.make_result(body, Running.shot, job.output, Running.start)
+        made[body] = result
+    except Failure as failure:
+        result, player, prefix = results.make_plain_result(job.output, Running.start)
+        changed.append(f"{failure} The result is a surface without materials and modifiers.")
+    mark(result, f"{Running.title} result")
+    mark(player, f"{Running.title} residual")
+    for i, (name, matrix) in enumerate(Running.shot.worn, 1):
+        child = bpy.data.objects.get(name)
+        shown = child and results.make_worn(child, matrix, result, job.output / f"animation_worn_{i}.pc2", Path(f"{prefix}worn_{i}.pc2"),
+                                            Running.start)
+        if shown is None:
+            changed.append(f"{name} is not what it was when the run began, and stays where it is.")
+        else:
+            made[child] = shown
+            mark(shown, f"{name} result")
+    results.retarget(made)
+    if body is not None:
+        made.setdefault(body, result)
+    for original in made:
+        hide_original(original)
+    return changed
 
 
-def in_artists_words(text):
-    """Names of files that stand for keys and objects become theirs."""
-    def name_of(found):
-        names = Running.worn if found[1] == "worn" else Running.poses
-        return names[int(found[2]) - 1] if int(found[2]) <= len(names) else found[0]
-    return re.sub(r"\b(worn|pose)_(\d+)\b(\.obj)?", name_of, text)
+def in_words(text):
+    return in_artists_words(text, Running.job.directory, Running.title, Running.shot)
 
 
 def select_faults(faces, vertices):
     """Of the body, if it has the faces still with which the run began."""
     body = Running.body()
-    if body is None or not (faces or vertices) or scene_files.faces_of(body) != Running.faces:
+    if body is None or not (faces or vertices):
+        return
+    surface = Surface(body)
+    is_same = not surface.is_made and surface.faces() == Running.shot.faces
+    surface.free()
+    if not is_same:
         return
     for polygon in body.data.polygons:
         polygon.select = polygon.index in faces
@@ -309,15 +353,46 @@ class Panel(bpy.types.Panel):
             layout.label(text="Choose the object that is the body.")
         else:
             settings = body.exemplar
+            layout.label(text=scale_line(body, context.scene))
             for name in ("cells", "stiffness", "importance"):
                 layout.prop(settings, name)
             for name in ("follow", "pin"):
                 layout.prop_search(settings, name, body, "vertex_groups")
-            layout.prop(settings, "repair")
+            row = layout.row()
+            row.enabled = bool(scene_files.gravity_of(context.scene).any())
+            row.prop(settings, "balanced")
         layout.operator("exemplar.cancel" if Running.is_on() else "exemplar.run")
         for line in Running.said.splitlines():
             for part in textwrap.wrap(line, max(20, context.region.width // 8)):
                 layout.label(text=part)
+
+
+class MorePanel(bpy.types.Panel):
+    bl_idname = "VIEW3D_PT_exemplar_more"
+    bl_label = "More"
+    bl_parent_id = Panel.bl_idname
+    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "exemplar"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.object is not None and context.object.type == "MESH"
+
+    def draw(self, context):
+        settings = context.object.exemplar
+        for name in ("weights", "regions", "damping", "inner_damping", "steps", "repair"):
+            self.layout.prop(settings, name)
+        for handle in ("follow", "pin"):
+            row = self.layout.row(align=True)
+            row.enabled = bool(getattr(settings, handle))
+            row.prop(settings, f"{handle}_from")
+            row.prop(settings, f"{handle}_until")
+
+
+def scale_line(body, scene):
+    """How large the body is and how heavy things are: stiffness means nothing without these."""
+    size, gravity = max(body.dimensions) * scene_files.unit_scale(scene), scene_files.gravity_of(scene)
+    return f"{size:.3g} m, gravity {sum(g * g for g in gravity) ** .5:.3g} m/s²"
 
 
 @bpy.app.handlers.persistent
@@ -327,7 +402,7 @@ def leave_file(*_):
         stop("Cancelled.")
 
 
-CLASSES = (Settings, Preferences, Run, Cancel, Panel)
+CLASSES = (Settings, Preferences, Run, Cancel, Panel, MorePanel)
 
 
 def register():

@@ -171,23 +171,31 @@ def read_shapes(run, own):
     return shapes
 
 
-def add_shape_keys(shown, run, shapes, start):
-    """A shape key a pose, and its values in time."""
+def add_shape_keys(shown, shapes, rest="rest"):
+    """A shape key a pose, {weight's name: (name of the key, places)}, behind one at rest; the names that the keys got, by weights."""
     if not shapes:
-        return
-    shown.shape_key_add(name="rest", from_mix=False)
-    keys = shown.data.shape_keys
-    keys.animation_data_create().action = bpy.data.actions.new(f"{shown.name} weights")
+        return {}
+    shown.shape_key_add(name=rest, from_mix=False)
+    names = {}
     for weight, (name, places) in shapes.items():
         key = shown.shape_key_add(name=name, from_mix=False)
         key.data.foreach_set("co", places.astype(np.float32).ravel())
-        values = run.weights()[weight]
-        key.slider_min = max(-10., min(0., values.min()))
-        key.slider_max = min(10., max(1., values.max()))
-        curve = new_curve(keys, f'key_blocks["{key.name}"].value')
-        curve.keyframe_points.add(len(values))
-        frames = np.arange(start, start + len(values))
-        curve.keyframe_points.foreach_set("co", np.column_stack([frames, values]).ravel().astype(np.float32))
+        names[weight] = key.name
+    return names
+
+
+def animate_keys(shown, values, start):
+    """Keyframes of shape keys, {name: a value a frame}, from the frame `start` on."""
+    keys = shown.data.shape_keys
+    keys.animation_data_create().action = bpy.data.actions.new(f"{shown.name} weights")
+    for name, of_frames in values.items():
+        key = keys.key_blocks[name]
+        key.slider_min = max(-10., min(0., of_frames.min()))
+        key.slider_max = min(10., max(1., of_frames.max()))
+        curve = new_curve(keys, f'key_blocks["{bpy.utils.escape_identifier(name)}"].value')
+        curve.keyframe_points.add(len(of_frames))
+        frames = np.arange(start, start + len(of_frames))
+        curve.keyframe_points.foreach_set("co", np.column_stack([frames, of_frames]).ravel().astype(np.float32))
         for point in curve.keyframe_points:
             point.interpolation = "LINEAR"
         curve.update()
@@ -200,34 +208,58 @@ def new_curve(keys, path):
     return action.fcurves.new(path)
 
 
-def residual_of(run, shapes):
-    """What rest and weighted shapes miss, (frames, vertices, 3), by the single precision that Blender has."""
-    rest = run.rest.astype(np.float32).astype(float)
-    residual = run.places - rest
-    for weight, (_, places) in shapes.items():
-        shape = places.astype(np.float32).astype(float) - rest
-        residual -= run.weights()[weight].astype(np.float32).astype(float)[:, None, None] * shape
+def residual_of(places, rest, shapes, values):
+    """What rest (n, 3) and weighted shapes {name: (n, 3)} miss of places (frames, n, 3), by the single precision that Blender has."""
+    rest = rest.astype(np.float32).astype(float)
+    residual = places - rest
+    for name, shape in shapes.items():
+        change = shape.astype(np.float32).astype(float) - rest
+        residual -= values[name].astype(np.float32).astype(float)[:, None, None] * change
     return residual
 
 
-def add_residual(shown, run, shapes, start, file):
-    """A hidden copy of the surface plays the residual from a point cache; a modifier adds it to the keys' sum."""
-    rest = run.rest.astype(np.float32)
-    write_pc2(file, rest + residual_of(run, shapes))
-    player = make_object(f"{shown.name} residual", run)
+def relative(file):
+    """The path of a file from the .blend on, which may move with it; as it is, without a .blend."""
+    try:
+        return bpy.path.relpath(str(file)) if bpy.data.filepath else str(file)
+    except ValueError:  # on another drive
+        return str(file)
+
+
+def new_modifier(shown, name, kind, index=None):
+    """A modifier at a place in the stack, else the last one."""
+    modifier = shown.modifiers.new(name, kind)
+    if index is not None and index < len(shown.modifiers) - 1:
+        with bpy.context.temp_override(object=shown, active_object=shown):
+            bpy.ops.object.modifier_move_to_index(modifier=modifier.name, index=index)
+    return modifier
+
+
+def play_cache(shown, name, file, start, index=None):
+    """A modifier, at a place in the stack, that puts the vertices where a .pc2 file has them, from the frame `start` on."""
+    cache = new_modifier(shown, name, "MESH_CACHE", index)
+    cache.cache_format, cache.filepath, cache.frame_start, cache.interpolation = "PC2", relative(file), start, "LINEAR"
+    return cache
+
+
+def add_residual(shown, rest, residual, start, file, index=None):
+    """Hidden points play the residual (frames, n, 3) from a point cache; a modifier, at a place in the stack, adds it to the keys' sum. The
+    points, and the modifier that plays."""
+    rest = rest.astype(np.float32)
+    write_pc2(file, rest + residual)
+    name = f"{shown.name} residual"
+    player = bpy.data.objects.new(name, bpy.data.meshes.new(name))
+    player.data.from_pydata(rest.tolist(), [], [])
     attribute = player.data.attributes.new("rest", "FLOAT_VECTOR", "POINT")
     attribute.data.foreach_set("vector", rest.ravel())
-    cache = player.modifiers.new("residual", "MESH_CACHE")
-    cache.cache_format = "PC2"
-    cache.filepath = str(file)
-    cache.frame_start = start
-    cache.interpolation = "LINEAR"
+    bpy.context.scene.collection.objects.link(player)
+    cache = play_cache(player, "residual", file, start)
     player.hide_render = True
     player.hide_set(True)
     player.parent = shown
-    modifier = shown.modifiers.new(RESIDUAL, "NODES")
+    modifier = new_modifier(shown, RESIDUAL, "NODES", index)
     modifier.node_group = residual_nodes(player)
-    return cache
+    return player, cache
 
 
 def residual_nodes(player):
@@ -293,15 +325,19 @@ def load_run(directory, shapes=None, up=None, start=1, save=None, playback=True)
     run = Run(directory)
     found = read_shapes(run, shapes or {})
     shown = make_object(run.directory.name, run)
-    add_shape_keys(shown, run, found, start)
-    cache = add_residual(shown, run, found, start, run.directory / (f"{Path(save).stem}_residual.pc2" if save else "residual.pc2"))
+    shapes = {weight: places for weight, (_, places) in found.items()}
+    names = add_shape_keys(shown, found)
+    if names:
+        animate_keys(shown, {name: run.weights()[weight] for weight, name in names.items()}, start)
+    file = run.directory / (f"{Path(save).stem}_residual.pc2" if save else "residual.pc2")
+    _, cache = add_residual(shown, run.rest, residual_of(run.places, run.rest, shapes, run.weights()), start, file)
     if not (run.z_is_up() if up is None else up == "z"):
         shown.rotation_euler[0] = np.pi / 2
     if playback:
         set_playback(run, start)
     if save:
         bpy.ops.wm.save_as_mainfile(filepath=str(Path(save).resolve()))
-        cache.filepath = bpy.path.relpath(cache.filepath)
+        cache.filepath = relative(file)
         bpy.ops.wm.save_mainfile()
     return shown
 

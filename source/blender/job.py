@@ -20,15 +20,15 @@ def start(program, arguments, directory, log=subprocess.DEVNULL):
 class Job:
     """Runs a scene file; its output directory is `output` beside it."""
 
-    def __init__(self, program, scene_file, n_steps):
+    def __init__(self, program, scene_file, n_frames, steps=1):
         self.program = program
         self.directory = scene_file.parent
         self.output = self.directory / "output"
         for file in self.output.glob("frame_*.pc2"):
             file.unlink()  # so that all frames that exist are of this run
-        self.n_steps = n_steps
+        self.n_frames, self.steps = n_frames, steps  # frames after the first one, and the steps of each
         self.log = self.directory / "log.txt"
-        self.shown = -1  # step of the last frame that was asked for
+        self.shown = -1  # last frame that was asked for
         self.cancelled = False
         with open(self.log, "wb") as log:
             self.process = start(program, [scene_file.name, "--output", "output", "--quiet"], self.directory, log)
@@ -38,12 +38,16 @@ class Job:
 
     def newest_frame(self):
         """Places of the newest frame, if there is one since this was called last."""
-        for step in range(self.n_steps, self.shown, -1):
-            file = self.output / f"frame_{step:04d}.pc2"
-            if file.exists():
-                self.shown = step
-                return read_pc2(file)[0]
-        return None
+        newest = self.shown
+        while newest < self.n_frames and self._frame_file(newest + 1).exists():
+            newest += 1
+        if newest == self.shown:
+            return None
+        self.shown = newest
+        return read_pc2(self._frame_file(newest))[0]
+
+    def _frame_file(self, frame):
+        return self.output / f"frame_{frame * self.steps:04d}.pc2"
 
     def cancel(self):
         """Within a second: a run that does not end after its step is killed."""

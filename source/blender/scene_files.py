@@ -2,95 +2,63 @@
 """What a run of exemplar reads of an object: its surface, shape keys, vertex groups and motion, in world coordinates, and the scene."""
 import csv
 import struct
+from dataclasses import dataclass, field
 from pathlib import Path
 
-import bpy
 import numpy as np
 
 from .exemplar_blender import Failure
+from .surfaces import Surface, at_rest, group_weights, in_world, seen_motion, worn_by
 
 # Painted vertex groups of these names become maps: the key, and the factors of the weights 0 and 1.
 PAINTED = {"exemplar stiffness": ("Young's modulus map", (0.1, 10.)), "exemplar density": ("Density map", (0.1, 10.)),
            "exemplar importance": ("Importance map", None)}
+REGION = "exemplar region "  # vertex groups whose names begin so are regions with weights of their own
+EARTH = 9.81  # [m/s^2]
+STILL = 1e-5  # of the body's size: what moves less is taken to be at rest
 
 
-def places_of(coordinates, matrix):
-    """Local coordinates, an array of n times 3 or a collection of vertices or shape key points, in the world."""
-    if not isinstance(coordinates, np.ndarray):
-        numbers = np.empty(3 * len(coordinates), dtype=np.float32)
-        coordinates.foreach_get("co", numbers)
-        coordinates = numbers.reshape(-1, 3)
-    turn = np.array(matrix, dtype=float)
-    return coordinates.astype(float) @ turn[:3, :3].T + turn[:3, 3]
+@dataclass
+class Shot:
+    """What a run is given, by names and numbers, which last when objects are renamed or deleted."""
+    file: Path
+    faces: list        # of the body
+    matrix: list       # of the body in the first frame
+    poses: list        # names of the shape keys that are examples
+    worn: list         # (name, matrix at rest) of what the body wears
+    regions: list = field(default_factory=list)  # names of the painted regions
+    n_frames: int = 0  # after the first one
+    steps: int = 1     # a frame
+    notes: list = field(default_factory=list)  # what the artist should know
+    obstacles: list = field(default_factory=list)  # names of the objects with Collision physics
 
 
-def rest_places(body):
-    """Of the vertices at rest: those of the first shape key, if there are any, without modifiers."""
-    keys = body.data.shape_keys
-    return places_of(keys.reference_key.data if keys else body.data.vertices, body.matrix_world)
+def unit_scale(scene):
+    """Metres of a unit of the scene."""
+    return scene.unit_settings.scale_length if scene.unit_settings.system != "NONE" else 1.
 
 
-def poses_of(body):
-    """{name: places} of the shape keys that are not muted, without the one at rest."""
-    keys = body.data.shape_keys
-    blocks = keys.key_blocks if keys else []
-    return {key.name: places_of(key.data, body.matrix_world) for key in blocks if key != keys.reference_key and not key.mute}
+def gravity_of(scene):
+    """In m/s^2, three numbers. Blender's unit of length counts for it, too, but a new scene has 9.81 whatever its unit becomes, and means
+    the Earth's."""
+    gravity = np.array(scene.gravity, dtype=float) if scene.use_gravity else np.zeros(3)
+    untouched = np.allclose(gravity, (0., 0., -EARTH), atol=1e-5)
+    return gravity if untouched else gravity * unit_scale(scene)
 
 
-def clothes_of(body):
-    """Meshes that are children of the body and seen: what it wears."""
-    return [child for child in body.children_recursive if child.type == "MESH" and child.data.polygons and not child.hide_viewport]
+def examples_of(surface, keys):
+    """{name: local places} of the shape keys that are not muted and move something."""
+    size = np.linalg.norm(np.ptp(surface.rest, axis=0))
+    return {name: shape for name, shape in surface.shapes.items()
+            if not keys.key_blocks[name].mute and np.abs(shape - surface.rest).max() > 1e-7 * size}
 
 
 def obstacles_of(body, scene):
     """Meshes with Collision physics that are seen, but for the body and what it wears: what it may not pass."""
-    own = {body, *clothes_of(body)}
+    own = {body, *worn_by(body)}
     return [shown for shown in scene.objects
-            if shown.type == "MESH" and shown.data.polygons and shown not in own and not shown.hide_viewport
-            and any(modifier.type == "COLLISION" for modifier in shown.modifiers)]
-
-
-def faces_of(shown):
-    """As they are turned in the world: a mirrored object turns them over."""
-    turn = -1 if shown.matrix_world.determinant() < 0 else 1
-    return [tuple(face.vertices)[::turn] for face in shown.data.polygons]
-
-
-def evaluated_places(body):
-    """Of the vertices as modifiers and shape keys put them in the current frame."""
-    shown = body.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    mesh = shown.to_mesh()
-    try:
-        if len(mesh.vertices) != len(body.data.vertices):
-            raise Failure(f"Modifiers of {body.name} make {len(mesh.vertices)} of its {len(body.data.vertices)} vertices. Switch off in "
-                          "the viewport those that change their number, such as Subdivision Surface, and keep the armature.")
-        return places_of(mesh.vertices, shown.matrix_world)
-    finally:
-        shown.to_mesh_clear()
-
-
-def motion_of(body, scene):
-    """Places (frames, vertices, 3) in all frames of the scene, which then shows the frame that it has shown."""
-    shown = scene.frame_current
-    try:
-        places = []
-        for frame in range(scene.frame_start, scene.frame_end + 1):
-            scene.frame_set(frame)
-            places.append(evaluated_places(body))
-        return np.array(places)
-    finally:
-        scene.frame_set(shown)
-
-
-def group_weights(body, name):
-    """Of each vertex in a vertex group; 0 where it is not in it."""
-    group = body.vertex_groups[name].index
-    weights = np.zeros(len(body.data.vertices))
-    for vertex in body.data.vertices:
-        for element in vertex.groups:
-            if element.group == group:
-                weights[vertex.index] = element.weight
-    return weights
+            if shown.type == "MESH" and shown.data.polygons and shown not in own and shown.visible_get()
+            and any(modifier.type == "COLLISION" and modifier.show_viewport for modifier in shown.modifiers)]
 
 
 def write_obj(path, places, faces):
@@ -139,57 +107,111 @@ def check(body, settings, scene):
         raise Failure(f"{body.name} is being edited. Leave the edit mode first.")
     if not body.data.polygons:
         raise Failure(f"{body.name} has no faces. The body is the object whose closed surface it is.")
+    if abs(body.matrix_world.determinant()) < 1e-30:
+        raise Failure(f"{body.name} has a scale of 0. A body has an extent along all axes.")
     for name in (settings.follow, settings.pin):
         if name and name not in body.vertex_groups:
             raise Failure(f"{body.name} has no vertex group '{name}'. Choose another, or none.")
+        if name and not group_weights(body, body.data, name).max() > .5:
+            raise Failure(f"No vertex of {body.name} has a weight above 0.5 in the vertex group '{name}'. Paint more, or choose another.")
+    if settings.regions == "PAINTED" and not regions_of(body):
+        raise Failure(f"Regions are to be painted, but no vertex group of {body.name} is called '{REGION}' and a name. Paint one, or set "
+                      "Regions to None.")
     if scene.frame_end <= scene.frame_start:
         raise Failure(f"The scene has the frames {scene.frame_start} to {scene.frame_end}. Let it end after it begins.")
+    for label, begin, end in (("Follow", settings.follow_from, settings.follow_until), ("Pin", settings.pin_from, settings.pin_until)):
+        if end and begin == end:
+            raise Failure(f"{label} is caught and let go in the same frame, {end}. Give two, or 0 for the whole shot.")
 
 
-def handles_of(settings):
-    """{name of the handle: its keys}."""
+def regions_of(body):
+    """Vertex groups that are regions."""
+    return [group.name for group in body.vertex_groups if group.name.startswith(REGION) and group.name != REGION]
+
+
+def span_of(begin, end, scene):
+    """Keys for a handle that is caught in frame `begin` and let go in frame `end`, where these lie in the shot."""
+    def seconds(frame):
+        return f"{(frame - scene.frame_start) / frames_per_second(scene):.9g}"
+    keys = {}
+    if begin > scene.frame_start:
+        keys["From"] = seconds(begin)
+    if end > scene.frame_start:
+        keys["Until"] = seconds(end)
+    return keys
+
+
+def handles_of(settings, scene, is_posed):
+    """{name of the handle: its keys}; `is_posed`: the shot does not begin at rest."""
     handles = {}
     if settings.follow:
-        handles["follow"] = {"Select": "map groups.csv:follow above 0.5", "Follow_cache": "rig.mdd"}
+        handles["follow"] = {"Select": "map groups.csv:follow above 0.5", "Follow_cache": "rig.mdd",
+                             **span_of(settings.follow_from, settings.follow_until, scene)}
     if settings.pin:
-        handles["pin"] = {"Select": "map groups.csv:pin above 0.5"}
+        where = {"Follow_cache": "pin.mdd"} if is_posed else {}
+        handles["pin"] = {"Select": "map groups.csv:pin above 0.5", **where, **span_of(settings.pin_from, settings.pin_until, scene)}
     return handles
 
 
+def is_balanced(settings, scene, shot, handles):
+    """Whether the body stands as it is drawn: something must hold it in the first frame, and something pull. Obstacles bear it otherwise."""
+    def from_the_start(keys):
+        return "From" not in keys and keys.get("Until") != "0"
+    return settings.balanced and not shot.obstacles and bool(gravity_of(scene).any()) and any(map(from_the_start, handles.values()))
+
+
+def notes_of(body, settings, scene, shot, is_posed):
+    if not settings.balanced or not gravity_of(scene).any():
+        return []
+    if shot.obstacles:
+        return [f"{', '.join(shot.obstacles)}: {body.name} may not pass them, and Balanced does nothing beside Collision physics: the body sags "
+                "under its weight where it is held."]
+    if not is_balanced(settings, scene, shot, handles_of(settings, scene, is_posed)):
+        return [f"Nothing holds {body.name} in the first frame, so it falls, and Balanced does nothing: choose Follow or Pin."]
+    return []
+
+
+def truth(value):
+    return str(value).lower()
+
+
 def write_obstacle(shown, number, scene, directory):
-    """An obstacle at the first frame, and its motion if it has one; its keys."""
-    write_obj(directory / f"obstacle_{number}.obj", evaluated_places(shown), faces_of(shown))
+    """An obstacle in the first frame, behind all of its modifiers, and its motion if it has one; its keys."""
+    faces, places = seen_motion(shown, scene, range(scene.frame_start, scene.frame_end + 1))
+    write_obj(directory / f"obstacle_{number}.obj", places[0], faces)
     keys = {"Shape": f"surface obstacle_{number}.obj", "Friction": f"{shown.collision.friction_factor:.9g}"}
-    places = motion_of(shown, scene)
     if np.any(places != places[0]):
         write_mdd(directory / f"obstacle_{number}.mdd", places, np.arange(len(places)) / frames_per_second(scene))
         keys["Follow_cache"] = f"obstacle_{number}.mdd"
     return keys
 
 
-def scene_text(body, settings, scene, poses, painted, obstacles):
+def scene_text(body, settings, scene, shot, painted, is_posed, obstacles):
     rate = frames_per_second(scene)
     keys = Keys([f"Expect the object {body.name} to move through the frames {scene.frame_start} to {scene.frame_end}.",
                  "Written by exemplar's add-on for Blender, which writes it anew when Run is pressed.",
-                 *(f"pose_{i}.obj is the shape key {name}." for i, name in enumerate(poses, 1)),
-                 *(f"worn_{i}.obj is the object {child.name}." for i, child in enumerate(clothes_of(body), 1)),
-                 *(f"obstacle_{i}.obj is the object {shown.name}." for i, shown in enumerate(obstacles_of(body, scene), 1))])
+                 *(f"pose_{i}.obj is the shape key {name}." for i, name in enumerate(shot.poses, 1)),
+                 *(f"worn_{i}.obj is the object {name}." for i, (name, _) in enumerate(shot.worn, 1)),
+                 *(f"Region {i} is the vertex group {name}." for i, name in enumerate(shot.regions, 1)),
+                 *(f"obstacle_{i}.obj is the object {name}." for i, name in enumerate(shot.obstacles, 1))])
     keys.add("", Scene="dynamic")
-    scale = scene.unit_settings.scale_length if scene.unit_settings.system != "NONE" else 1.
-    mesh = {"File": "body.obj", "Cells": settings.cells, "Repair": str(settings.repair).lower(), "Scale": f"{scale:.9g}"}
-    clothes = clothes_of(body)
-    if clothes:
-        mesh["Carry"] = ", ".join(f"worn_{i}.obj" for i in range(1, len(clothes) + 1))
+    mesh = {"File": "body.obj", "Cells": settings.cells, "Repair": truth(settings.repair), "Scale": f"{unit_scale(scene):.7g}"}
+    if shot.worn:
+        mesh["Carry"] = ", ".join(f"worn_{i}.obj" for i in range(1, len(shot.worn) + 1))
     keys.add("Mesh", **mesh)
-    material = {"Young's modulus": f"{settings.stiffness:.9g}"}
+    material = {"Young's modulus": f"{settings.stiffness:.7g}"}
     for name in painted:
         key, factors = PAINTED[name]
         column = name.split()[1]
         material[key] = f"groups.csv:{column}" + (f" from {factors[0]} to {factors[1]}" if factors else "")
     keys.add("Material", **material)
-    if poses:
-        keys.add("Examples", Poses=", ".join(f"pose_{i}.obj" for i in range(1, len(poses) + 1)), Importance=f"{settings.importance:.9g}")
-    handles = handles_of(settings)
+    if shot.poses:
+        examples = {"Poses": ", ".join(f"pose_{i}.obj" for i in range(1, len(shot.poses) + 1)),
+                    "Importance": f"{settings.importance:.7g}", "Weights": settings.weights.lower()}
+        if shot.regions:
+            examples["Weight maps"] = ", ".join(f"groups.csv:region_{i}" for i in range(1, len(shot.regions) + 1))
+        keys.add("Examples", **examples)
+    handles = handles_of(settings, scene, is_posed)
     if handles:
         keys.add("Handles", Names=", ".join(handles))
     for name, of_handle in handles.items():
@@ -198,39 +220,79 @@ def scene_text(body, settings, scene, poses, painted, obstacles):
         keys.add("Obstacles", Names=", ".join(obstacles))
     for name, of_obstacle in obstacles.items():
         keys.add(f"Obstacles/{name}", **of_obstacle)
-    if scene.use_gravity:
-        keys.add("Loads", Gravity=", ".join(f"{g:.9g}" for g in scene.gravity))
-    keys.add("Time", Step=f"{1. / rate:.12g}", End=f"{(scene.frame_end - scene.frame_start) / rate:.12g}")
-    keys.add("Output", Every=1, Formats="pc2")
+    gravity = gravity_of(scene)
+    if gravity.any():
+        keys.add("Loads", Gravity=", ".join(f"{g:.7g}" for g in gravity), Balanced=truth(is_balanced(settings, scene, shot, handles)))
+    if is_posed:
+        keys.add("Initial", Pose="start.obj")
+    keys.add("Time", Step=f"{1. / (rate * settings.steps):.12g}", End=f"{shot.n_frames / rate:.12g}",
+             Mass_damping=f"{settings.damping:.7g}", Stiffness_damping=f"{settings.inner_damping:.7g}")
+    keys.add("Output", Every=settings.steps, Formats="pc2")
     return keys.text()
 
 
+def write_worn(body, directory):
+    """Surfaces of what the body wears; (name, matrix at rest) of each."""
+    worn = []
+    with at_rest(body):
+        for i, child in enumerate(worn_by(body), 1):
+            surface = Surface(child)
+            try:
+                write_obj(directory / f"worn_{i}.obj", in_world(surface.rest, child.matrix_world), surface.faces())
+            finally:
+                surface.free()
+            worn.append((child.name, [list(row) for row in child.matrix_world]))
+    return worn
+
+
+def write_tables(surface, settings, painted, regions, directory):
+    groups = {handle: surface.group_weights(name) for handle, name in (("follow", settings.follow), ("pin", settings.pin)) if name}
+    groups.update((name.split()[1], surface.group_weights(name)) for name in painted)
+    groups.update((f"region_{i}", surface.group_weights(name)) for i, name in enumerate(regions, 1))
+    if groups:
+        write_groups(directory / "groups.csv", groups)
+
+
+def write_motion(surface, settings, scene, directory):
+    """Caches of the handles, and the pose of the first frame. Whether that is another one than at rest."""
+    frames = range(scene.frame_start, scene.frame_end + 1 if settings.follow else scene.frame_start + 1)
+    rest, places = in_world(surface.rest, surface.shown.matrix_world), surface.motion(scene, frames)
+    start = places[0]
+    is_posed = bool(np.abs(start - rest).max() > STILL * np.linalg.norm(np.ptp(rest, axis=0)))
+    if is_posed:
+        write_obj(directory / "start.obj", start, surface.faces())
+        if settings.pin:
+            write_mdd(directory / "pin.mdd", start[None], [0.])
+    if settings.follow:
+        write_mdd(directory / "rig.mdd", places, np.arange(len(places)) / frames_per_second(scene))
+    return is_posed
+
+
 def write_scene(body, settings, scene, directory):
-    """Write all that a run reads into a directory, which is made; the scene file."""
+    """Write all that a run reads into a directory, which is made; the shot."""
     check(body, settings, scene)
     directory.mkdir(parents=True, exist_ok=True)
     shown = scene.frame_current
     scene.frame_set(scene.frame_start)  # the body begins where the object is at the first frame
+    surface = Surface(body)
     try:
-        faces = faces_of(body)
-        write_obj(directory / "body.obj", rest_places(body), faces)
-        poses = poses_of(body)
-        for i, places in enumerate(poses.values(), 1):
-            write_obj(directory / f"pose_{i}.obj", places, faces)
-        for i, child in enumerate(clothes_of(body), 1):
-            write_obj(directory / f"worn_{i}.obj", rest_places(child), faces_of(child))
-        obstacles = {f"obstacle {i}": write_obstacle(shown_object, i, scene, directory)
-                     for i, shown_object in enumerate(obstacles_of(body, scene), 1)}
+        matrix, keys = body.matrix_world.copy(), body.data.shape_keys
+        write_obj(directory / "body.obj", in_world(surface.rest, matrix), surface.faces())
+        found = obstacles_of(body, scene)
+        obstacles = {f"obstacle {i}": write_obstacle(obstacle, i, scene, directory) for i, obstacle in enumerate(found, 1)}
+        scene.frame_set(scene.frame_start)
+        poses = examples_of(surface, keys)
+        for i, shape in enumerate(poses.values(), 1):
+            write_obj(directory / f"pose_{i}.obj", in_world(shape, matrix), surface.faces())
+        shot = Shot(directory / "scene.prm", surface.faces(), [list(row) for row in matrix], list(poses), write_worn(body, directory),
+                    regions_of(body) if settings.regions == "PAINTED" and poses else [], scene.frame_end - scene.frame_start,
+                    settings.steps, obstacles=[shown.name for shown in found])
+        painted = [name for name in PAINTED if name in body.vertex_groups]
+        write_tables(surface, settings, painted, shot.regions, directory)
+        is_posed = write_motion(surface, settings, scene, directory)
+        shot.notes = notes_of(body, settings, scene, shot, is_posed)
     finally:
+        surface.free()
         scene.frame_set(shown)
-    painted = [name for name in PAINTED if name in body.vertex_groups]
-    groups = {handle: group_weights(body, name) for handle, name in (("follow", settings.follow), ("pin", settings.pin)) if name}
-    groups.update((name.split()[1], group_weights(body, name)) for name in painted)
-    if groups:
-        write_groups(directory / "groups.csv", groups)
-    if settings.follow:
-        places = motion_of(body, scene)
-        write_mdd(directory / "rig.mdd", places, np.arange(len(places)) / frames_per_second(scene))
-    file = directory / "scene.prm"
-    file.write_text(scene_text(body, settings, scene, poses, painted, obstacles), encoding="utf-8")
-    return file
+    shot.file.write_text(scene_text(body, settings, scene, shot, painted, is_posed, obstacles), encoding="utf-8")
+    return shot

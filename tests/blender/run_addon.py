@@ -6,116 +6,37 @@
 A bar stands on its end with a shape key that bends it; an armature of two bones holds the lower end and turns the upper one.
 """
 import json
-import math
 import shutil
 import sys
 import time
 from pathlib import Path
 
 import bpy
-import numpy as np
+
+sys.path.append(str(Path(__file__).parent))
+from addon_scenes import add_group, add_key, bar, bent, install, make_object, make_rig, places, wait  # noqa: E402
 
 addon, program, directory, result = map(Path, sys.argv[sys.argv.index("--") + 1:][:4])
-SIZE = 12  # quads along
-
-
-def bar():
-    """(vertices, faces) of a bar 1 x 1 x 4 that stands on z = 0."""
-    vertices, number, faces = [], {}, []
-
-    def v(i, j, k):
-        if (i, j, k) not in number:
-            number[i, j, k] = len(vertices)
-            vertices.append((i / 4 - .5, j / 4 - .5, 4 * k / SIZE))
-        return number[i, j, k]
-    for k in range(SIZE):
-        for i in range(4):
-            faces += [(v(i, 0, k), v(i + 1, 0, k), v(i + 1, 0, k + 1), v(i, 0, k + 1)),
-                      (v(i, 4, k), v(i, 4, k + 1), v(i + 1, 4, k + 1), v(i + 1, 4, k)),
-                      (v(0, i, k), v(0, i, k + 1), v(0, i + 1, k + 1), v(0, i + 1, k)),
-                      (v(4, i, k), v(4, i + 1, k), v(4, i + 1, k + 1), v(4, i, k + 1))]
-    for i in range(4):
-        for j in range(4):
-            faces += [(v(i, j, 0), v(i, j + 1, 0), v(i + 1, j + 1, 0), v(i + 1, j, 0)),
-                      (v(i, j, SIZE), v(i + 1, j, SIZE), v(i + 1, j + 1, SIZE), v(i, j + 1, SIZE))]
-    return vertices, faces
-
-
-def bent(x, y, z, angle=math.pi / 3):
-    radius = 4 / angle
-    a = z / radius
-    return radius - (radius - x) * math.cos(a), y, (radius - x) * math.sin(a)
 
 
 def make_body():
     vertices, faces = bar()
-    mesh = bpy.data.meshes.new("bar")
-    mesh.from_pydata(vertices, [], faces)
-    body = bpy.data.objects.new("bar", mesh)
-    bpy.context.scene.collection.objects.link(body)
+    body = make_object("bar", vertices, faces)
     body.shape_key_add(name="Basis")
-    key = body.shape_key_add(name="bent")
-    key.data.foreach_set("co", np.array([bent(*x) for x in vertices], dtype=np.float32).ravel())
-    for name, chosen in (("low", lambda z: z == 0), ("high", lambda z: z == 4)):
-        group = body.vertex_groups.new(name=name)
-        group.add([i for i, x in enumerate(vertices) if chosen(x[2])], 1., "REPLACE")
-    stiff = body.vertex_groups.new(name="exemplar stiffness")
-    stiff.add(list(range(len(vertices))), .5, "REPLACE")
+    add_key(body, "bent", [bent(*x) for x in vertices])
+    add_group(body, "low", lambda x, y, z: z == 0)
+    add_group(body, "high", lambda x, y, z: z == 4)
+    add_group(body, "exemplar stiffness", lambda x, y, z: True, .5)
     body.location = (0., 0., 1.)
     return body
 
 
-def make_rig(body):
-    """An armature that takes the upper end to where the shape key has it: bones point along z, their third axis against y."""
-    rig = bpy.data.objects.new("rig", bpy.data.armatures.new("rig"))
-    bpy.context.scene.collection.objects.link(rig)
-    bpy.context.view_layer.objects.active = rig
-    bpy.ops.object.mode_set(mode="EDIT")
-    for name, z in (("low", 1.), ("high", 5.)):
-        bone = rig.data.edit_bones.new(name)
-        bone.head, bone.tail = (0., 0., z), (0., 0., z + 1.)
-    bpy.ops.object.mode_set(mode="POSE")
-    bone = rig.pose.bones["high"]
-    bone.rotation_mode = "XYZ"
-    scene = bpy.context.scene
-    x, _, z = bent(0., 0., 4.)
-    for frame, part in ((scene.frame_start, 0.), (scene.frame_end, 1.)):
-        bone.rotation_euler, bone.location = (0., 0., -part * math.pi / 3), (part * x, part * (z - 4.), 0.)
-        bone.keyframe_insert("rotation_euler", frame=frame)
-        bone.keyframe_insert("location", frame=frame)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    modifier = body.modifiers.new("rig", "ARMATURE")
-    modifier.object = rig
-
-
-def wait(exemplar):
-    seen = set()
-    while exemplar.poll() is not None:
-        seen.add(exemplar.Running.job.shown)
-        time.sleep(.02)
-    return len(seen)
-
-
-def places(shown, frame):
-    bpy.context.scene.frame_set(frame)
-    shown = shown.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    return [list(shown.matrix_world @ vertex.co) for vertex in shown.to_mesh().vertices]
-
-
-bpy.ops.wm.read_homefile(use_empty=True)
-bpy.ops.preferences.addon_install(filepath=str(addon))
-bpy.ops.preferences.addon_enable(module="exemplar_addon")
-import exemplar_addon as exemplar  # noqa: E402
-
-bpy.context.preferences.addons["exemplar_addon"].preferences.program = str(program)
+exemplar = install(addon, program)
 scene = bpy.context.scene
-scene.frame_start, scene.frame_end, scene.render.fps = 3, 18, 24
 scene.gravity = (0., 0., -1.)
 body = make_body()
 make_rig(body)
-hat = bpy.data.objects.new("hat", bpy.data.meshes.new("hat"))
-hat.data.from_pydata([(-.3, -.3, 0), (.3, -.3, 0), (.3, .3, 0), (-.3, .3, 0)], [], [(0, 1, 2, 3)])
-scene.collection.objects.link(hat)
+hat = make_object("hat", [(-.3, -.3, 0), (.3, -.3, 0), (.3, .3, 0), (-.3, .3, 0)], [(0, 1, 2, 3)])
 hat.parent, hat.location = body, (0, 0, 4.05)
 bpy.context.view_layer.objects.active = body
 settings = body.exemplar
@@ -133,11 +54,10 @@ def refused():
 
 found["unsaved"] = refused()
 bpy.ops.wm.save_as_mainfile(filepath=str(directory / "my film.blend"))
-subdivided = body.modifiers.new("fine", "SUBSURF")
-found["subdivided"] = refused()
-body.modifiers.remove(subdivided)
+settings.follow = "gone"
+found["no group"] = refused()
+settings.follow = "high"
 
-shutil.rmtree(exemplar.directory_of(body))
 exemplar.directory_of(body).write_text("in the way")
 found["no directory"] = refused()
 exemplar.directory_of(body).unlink()

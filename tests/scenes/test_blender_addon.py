@@ -12,23 +12,34 @@ from exemplar_runner import EXEMPLAR, REPOSITORY, SceneTest
 from test_blender import BLENDER, ENVIRONMENT
 
 
+def use_addon(directory, script, *arguments):
+    """Pack the add-on and let Blender run a script of tests/blender with it; what the script has found."""
+    addon, result = directory / "exemplar_addon.zip", directory / "result.json"
+    subprocess.run([sys.executable, REPOSITORY / "source/blender/pack_addon.py", addon], check=True)
+    own = {"BLENDER_USER_CONFIG": str(directory / "config"), "BLENDER_USER_SCRIPTS": str(directory / "scripts")}
+    done = subprocess.run([BLENDER, "--background", "--factory-startup", "--python-exit-code", "1", "--python",
+                           REPOSITORY / "tests/blender" / script, "--", addon, EXEMPLAR, directory, result, *arguments],
+                          cwd=directory, text=True, env={**os.environ, **ENVIRONMENT, **own}, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, timeout=300)
+    if done.returncode != 0:
+        raise AssertionError(done.stdout)
+    return json.loads(result.read_text())
+
+
+def farthest(places, others):
+    return max(math.dist(x, y) for x, y in zip(places, others))
+
+
+def middle_of(places):
+    return [sum(x[c] for x in places) / len(places) for c in range(3)]
+
+
 @unittest.skipUnless(BLENDER, "there is no blender (Debian: apt-get install blender)")
 class AddOn(SceneTest):
-    def use(self):
-        addon, result = self.directory / "exemplar_addon.zip", self.directory / "result.json"
-        subprocess.run([sys.executable, REPOSITORY / "source/blender/pack_addon.py", addon], check=True)
-        own = {"BLENDER_USER_CONFIG": str(self.directory / "config"), "BLENDER_USER_SCRIPTS": str(self.directory / "scripts")}
-        done = subprocess.run([BLENDER, "--background", "--factory-startup", "--python-exit-code", "1", "--python",
-                               REPOSITORY / "tests/blender/run_addon.py", "--", addon, EXEMPLAR, self.directory, result],
-                              cwd=self.directory, text=True, env={**os.environ, **ENVIRONMENT, **own}, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, timeout=300)
-        self.assertEqual(done.returncode, 0, done.stdout)
-        return json.loads(result.read_text())
-
     def test_from_keys_and_an_armature_to_the_result(self):
-        found = self.use()
+        found = use_addon(self.directory, "run_addon.py")
         self.assertEqual(found["said"], "Done.")
-        self.assertEqual((found["keys"], found["range"]), (["rest", "weight_1"], [3, 18]))
+        self.assertEqual((found["keys"], found["range"]), (["Basis", "bent"], [3, 18]))
         self.assertGreater(found["frames seen"], 1)
         # the upper end is where the armature has it, the lower one where it was, and the shape key is recognised
         high = [i for i, x in enumerate(found["rest"]) if abs(x[2] - 5.) < 1e-5]
@@ -62,12 +73,123 @@ class AddOn(SceneTest):
         self.assertIn("bar is running. Cancel that first", found["twice"])
         self.assertIn("cannot be written (File exists). Save the .blend elsewhere", found["no directory"])
         self.assertIn("Save the .blend first", found["unsaved"])
-        self.assertIn("of its 226 vertices", found["subdivided"])
+        self.assertIn("bar has no vertex group 'gone'", found["no group"])
         self.assertEqual((found["cancelled"], found["hidden"]), ("Cancelled.", False))
         self.assertEqual(found["objects"], ["bar", "bar residual", "bar residual.001", "bar result", "hat", "hat result", "hat result.001", "mine", "rig"])
         self.assertIn("holes: 1", found["hole"])
         self.assertIn("0 faces and 4 vertices with faults are selected", found["hole"])
         self.assertEqual(found["selected"], [0, 1, 2, 3])
+
+
+@unittest.skipUnless(BLENDER, "there is no blender (Debian: apt-get install blender)")
+class Characters(SceneTest):
+    """Bodies as artists have them: tests/blender/run_character.py."""
+
+    def use(self, case):
+        return use_addon(self.directory, "run_character.py", case)
+
+    def assert_shows_the_run(self, found):
+        self.assertEqual(len(found["shown"]), 16)
+        for shown, of_run in zip(found["shown"], found["run"]):
+            self.assertLess(farthest(shown, of_run), 2e-6)
+
+    def test_a_rigged_character_comes_back_as_it_was(self):
+        found = self.use("character")
+        self.assertEqual(found["said"], "Done.")
+        self.assertEqual(found["after"], found["before"])
+        self.assertEqual(found["modifiers"], [["rig", False, False], ["exemplar residual", True, True], ["fine", True, True]])
+        self.assertGreater(found["fine"], 3 * len(found["run"][0]))
+        self.assertEqual(found["hidden"], [True, True])  # the original, also from renders
+        self.assert_shows_the_run(found)
+        # examples are keys that move something and are not muted, each as it is seen
+        self.assertEqual(sorted(found["values"]), ['key_blocks["bent"].value', 'key_blocks["more"].value'])
+        self.assertGreater(found["values"]['key_blocks["bent"].value'], .9)
+        self.assertGreater(farthest(found["more"], found["before places"]), .5)
+        self.assertLess(farthest(found["more"], found["pose 2"]), 1e-6)
+
+        # it begins as the rig has it, held and balanced, and does not jump
+        self.assertGreater(farthest(found["rig"][0], found["before places"]), .5)
+        self.assertLess(farthest(found["rig"][0], found["run"][0]), 1e-3)
+        self.assertLess(farthest(found["run"][0], found["run"][1]), .1)
+        self.assertIn("set Balanced = true", found["prm"])
+        head = [i for i, x in enumerate(found["before places"]) if abs(x[2] - 5.) < 1e-5]
+        feet = [i for i, x in enumerate(found["before places"]) if abs(x[2] - 1.) < 1e-5]
+        self.assertLess(max(math.dist(found["run"][-1][i], found["rig"][1][i]) for i in head), 1e-2)
+        self.assertLess(max(math.dist(found["run"][-1][i], found["rig"][0][i]) for i in feet), 1e-2)
+
+        # what the armature or a bone carries goes along, with its modifiers, and nothing else is taken for clothes
+        self.assertEqual(found["collar"], [["rig", False, False], ["exemplar", True, True], ["cloth", True, True], ["hug", False, True]])
+        self.assertEqual((found["hug"], found["curves"]), ("bar result", ['modifiers["fine"].levels']))
+        self.assertEqual(found["eye"], [["exemplar", True, True]])
+        self.assertEqual([name for name in found["objects"] if name.endswith("result")], ["bar result", "collar result", "eye result"])
+        self.assertEqual(len(found["collar ends"][0]), 8)
+        for name in ("collar ends", "eye ends"):
+            self.assertLess(math.dist(*map(middle_of, found[name])), .15)
+
+        self.assertEqual(sorted(found["caches"]), [f"//film_bar/take_1_{name}.pc2" for name in ("residual", "worn_1", "worn_2")])
+        self.assertLess(farthest(found["moved folder"], found["run"][-1]), 2e-6)
+
+    def test_half_of_a_body_is_mirrored(self):
+        found = self.use("half")
+        self.assertEqual((found["said"], found["vertices"]), ("Done.", 226))
+        self.assertEqual(found["modifiers"],
+                         [["other side", False, False], ["rig", False, False], ["exemplar residual", True, True], ["fine", True, True]])
+        after = found["after"]
+        self.assertEqual((after["keys"], after["groups"]), ([["Basis", False], ["thick", False]], ["feet", "low", "head", "high"]))
+        self.assertEqual((after["materials"], after["uv name"], set(after["smooth"])), (["fur"], "skin", {True}))
+        self.assertEqual(sum(0 in groups for groups in after["group of"]), 25)
+        self.assert_shows_the_run(found)
+        self.assertEqual(found["stray keys"], 0)
+        self.assertEqual(found["without rig"], ["Done.", 226])
+
+    def test_the_unit_of_the_scene(self):
+        found = self.use("centimetres")
+        self.assertEqual((found["metres said"], found["centimetres said"]), ("Done.", "Done."))
+        self.assertLess(min(x[2] for x in found["metres"]), 1.)
+        self.assertLess(farthest(found["metres"], found["centimetres"]), .05)
+        self.assertEqual([round(g, 4) for g in found["gravity"]], [0., 0., -9.81])  # -981 cm/s^2
+
+    def test_regions_weights_and_damping(self):
+        found = self.use("regions")
+        self.assertEqual(found["said"], "Done.")
+        self.assertEqual(found["keys"], ["Basis", "bent", "bent elsewhere", "bent top", "bent foot"])
+        for line in ("Weights = free", "Weight maps = groups.csv:region_1, groups.csv:region_2", "Mass damping = 1",
+                     "Stiffness damping = 0.01", "Every = 2"):
+            self.assertIn(f"set {line}\n", found["prm"])
+        self.assert_shows_the_run(found)
+
+    def test_what_has_collision_physics_is_not_passed(self):
+        found = self.use("obstacles")
+        self.assertIn("Done.", found["said"])
+        self.assertIn("floor: bar may not pass them, and Balanced does nothing", found["said"])
+        for line in ("Names = obstacle 1", "Shape = surface obstacle_1.obj", "Friction = 0.25", "Follow cache = obstacle_1.mdd", "Balanced = false"):
+            self.assertIn(f"set {line}\n", found["prm"])
+        self.assertEqual(len(found["least"]), 16)
+        for frame, least in enumerate(found["least"]):
+            self.assertGreater(least, .7 + .2 * frame / 15 - .01)  # between frames Blender eases, the floor is lower than on the straight way
+        self.assertLess(min(found["least"]), .95)  # it has fallen from 1
+        self.assertGreater(found["least"][-1], .9)
+        self.assertLess(found["least"][-1], 1.)
+        self.assertIn("What has Collision physics keeps its vertices", found["grows"])
+
+    def test_caught_and_let_go(self):
+        found = self.use("spans")
+        self.assertEqual(found["said"], "Done.")
+        self.assertIn(f"set Until = {7 / 24:.9g}\n", found["prm"])
+        self.assertIn(f"set From = {2 / 24:.9g}\n", found["prm"])
+        self.assertIn("Follow is caught and let go in the same frame, 10.", found["same"])
+
+    def test_messages_are_in_the_words_of_the_panel(self):
+        found = self.use("words")
+        self.assertIn("Balanced: the rest pose is an equilibrium, but no stable one", found["soft"])
+        self.assertIn("its stiffness: Stiffness = ", found["soft"])
+        self.assertIn("Its own weight makes this body sag", found["unbalanced"])
+        self.assertIn("Nothing holds bar in the first frame, so it falls, and Balanced does nothing", found["nothing holds"])
+        self.assertIn("set Balanced = false", found["nothing holds prm"])
+        self.assertIn("has a weight above 0.5 in the vertex group 'nobody'", found["empty group"])
+        self.assertIn("shape key 'inside out' is no pose of 'bar': it is a mirror image", found["bad key"])
+        for said in (found[name] for name in found if not name.endswith("prm")):
+            self.assertNotRegex(said, r"\b[A-Z][a-z]+/[A-Z]|\.obj|\.csv|exemplar: ")
 
 
 if __name__ == "__main__":

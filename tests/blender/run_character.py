@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on with characters as artists have them: what came of a case, as JSON.
+
+    blender --background --python run_character.py -- ADDON.zip PROGRAM DIRECTORY RESULT.json CASE
+
+CASE is a function of this file without its `case_`.
+"""
+import json
+import shutil
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.append(str(Path(__file__).parent))
+from addon_scenes import add_group, add_key, bar, bent, install, make_object, make_rig, places, wait  # noqa: E402
+
+addon, program, directory, result, case = sys.argv[sys.argv.index("--") + 1:][:5]
+directory = Path(directory)
+exemplar = install(addon, program)
+scene = bpy.context.scene
+
+
+def make_body(scale=1.):
+    """A bar with texture, two materials, smooth faces, keys of all kinds and groups."""
+    vertices, faces = bar()
+    body = make_object("bar", [[scale * c for c in x] for x in vertices], faces)
+    mesh = body.data
+    layer = mesh.uv_layers.new(name="skin")
+    for loop in mesh.loops:
+        x = vertices[loop.vertex_index]
+        layer.data[loop.index].uv = (x[0] + .1 * x[1], x[2] / 4)
+    for name in ("fur", "nails"):
+        mesh.materials.append(bpy.data.materials.new(name))
+    mesh.polygons.foreach_set("material_index", [i % 2 for i in range(len(faces))])
+    mesh.polygons.foreach_set("use_smooth", [True] * len(faces))
+    body.shape_key_add(name="Basis")
+    add_key(body, "bent", [[scale * c for c in bent(*x)] for x in vertices])
+    add_group(body, "feet", lambda x, y, z: z == 0)
+    add_group(body, "head", lambda x, y, z: z == scale * 4)
+    for name in ("low", "high"):  # of the bones
+        group = body.vertex_groups.new(name=name)
+        for i, x in enumerate(vertices):
+            group.add([i], x[2] / 4 if name == "high" else 1 - x[2] / 4, "REPLACE")
+    body.location = (0., 0., scale)
+    return body
+
+
+def add_hard_keys(body):
+    """A muted key, one that moves nothing, and one relative to another that acts in a group only."""
+    x = np.array([tuple(vertex.co) for vertex in body.data.vertices])
+    add_key(body, "put away", x + 1.).mute = True
+    add_key(body, "nothing", x)
+    twice = np.array([tuple(point.co) for point in body.data.shape_keys.key_blocks["bent"].data])
+    twice[:, 0] += .3 * x[:, 2]
+    key = add_key(body, "more", twice)
+    key.relative_key = body.data.shape_keys.key_blocks["bent"]
+    add_group(body, "upper half", lambda x, y, z: z > 2)
+    key.vertex_group = "upper half"
+
+
+def make_clothes(body, rig):
+    """A collar that the armature moves, an eye on a bone, a bone's own shape, and what is hidden."""
+    collar = make_object("collar", [(-.6, -.6, 5.1), (.6, -.6, 5.1), (.6, .6, 5.1), (-.6, .6, 5.1)], [(0, 1, 2, 3)])
+    add_group(collar, "high", lambda x, y, z: True)
+    collar.modifiers.new("rig", "ARMATURE").object = rig
+    collar.modifiers.new("cloth", "SOLIDIFY").thickness = .1
+    collar.parent = rig
+    square = ([(-.1, 0., -.1), (.1, 0., -.1), (0., 0., .1)], [(0, 1, 2)])
+    for name in ("eye", "tool", "hidden"):
+        thing = make_object(name, *square)
+        thing.parent, thing.parent_type, thing.parent_bone = rig, "BONE", "high"
+        thing.location = (0., -1.2, .55)  # from the bone's tail, before the upper end
+    bpy.data.objects["hidden"].hide_set(True)
+    rig.pose.bones["high"].custom_shape = bpy.data.objects["tool"]
+
+
+def run(body, follow="head", pin="feet", **settings):
+    body.exemplar.cells, body.exemplar.follow, body.exemplar.pin = 600, follow, pin
+    for name, value in settings.items():
+        setattr(body.exemplar, name, value)
+    bpy.context.view_layer.objects.active = body
+    bpy.ops.wm.save_as_mainfile(filepath=str(directory / "film.blend"))
+    try:
+        bpy.ops.exemplar.run()
+    except RuntimeError as error:
+        return str(error)
+    wait(exemplar)
+    return exemplar.Running.said
+
+
+def modifiers_of(shown):
+    return [[modifier.name, modifier.show_viewport, modifier.show_render] for modifier in shown.modifiers]
+
+
+def what_it_has(shown):
+    mesh = shown.data
+    keys = mesh.shape_keys
+    return {"uv": [list(point.uv) for point in mesh.uv_layers[0].data], "uv name": mesh.uv_layers[0].name,
+            "materials": [material.name for material in mesh.materials], "material of": [face.material_index for face in mesh.polygons],
+            "smooth": [face.use_smooth for face in mesh.polygons], "groups": [group.name for group in shown.vertex_groups],
+            "group of": [sorted(element.group for element in vertex.groups) for vertex in mesh.vertices],
+            "keys": [[key.name, key.mute] for key in keys.key_blocks] if keys else None}
+
+
+def without_what_is_behind(shown, frames):
+    """Places in frames without the modifiers behind the residual."""
+    names = shown.modifiers.keys()
+    for name in names[names.index("exemplar residual") + 1:]:
+        shown.modifiers[name].show_viewport = False
+    return [places(shown, frame) for frame in frames]
+
+
+def run_places():
+    """Of the run, in its frames."""
+    return exemplar.exemplar_blender.read_pc2(exemplar.directory_of(bpy.data.objects["bar"]) / "output/animation.pc2").tolist()
+
+
+def scene_file():
+    return (exemplar.directory_of(bpy.data.objects["bar"]) / "scene.prm").read_text()
+
+
+def case_character():
+    body = make_body()
+    add_hard_keys(body)
+    rig = make_rig(body, begin=.5)
+    rig.pose.bones["low"].location = (0., 0., .1)  # along y of the world
+    body.modifiers.new("fine", "SUBSURF")
+    body.parent = rig
+    make_clothes(body, rig)
+    make_object("prop of nobody", *bar()).location = (9., 0., 0.)
+    hug = bpy.data.objects["collar"].modifiers.new("hug", "SHRINKWRAP")
+    hug.target, hug.show_viewport = body, False
+    body.modifiers["fine"].keyframe_insert("levels", frame=3)
+    body.keyframe_insert("location", frame=3)
+    found = {"before places": [list(body.matrix_world @ vertex.co) for vertex in body.data.vertices]}
+    found.update(said=run(body), before=what_it_has(body), prm=scene_file())
+    shown = bpy.data.objects["bar result"]
+    found.update(after=what_it_has(shown), modifiers=modifiers_of(shown), hidden=[body.hide_get(), body.hide_render])
+    found["values"] = {curve.data_path: curve.keyframe_points[-1].co[1] for curve in shown.data.shape_keys.animation_data.action.fcurves}
+    found["fine"] = len(places(shown, 18))
+    found["hug"] = bpy.data.objects["collar result"].modifiers["hug"].target.name
+    found["curves"] = [curve.data_path for curve in shown.animation_data.action.fcurves]
+    found["objects"] = sorted(item.name for item in bpy.data.objects)
+    found["caches"] = [modifier.filepath for item in bpy.data.objects for modifier in item.modifiers if modifier.type == "MESH_CACHE"]
+    for name in ("collar", "eye"):
+        found[name] = modifiers_of(bpy.data.objects[f"{name} result"])
+        found[f"{name} ends"] = places(bpy.data.objects[f"{name} result"], 18), places(bpy.data.objects[name], 18)
+    found["run"], found["shown"] = run_places(), without_what_is_behind(shown, range(3, 19))
+    body.modifiers["fine"].show_viewport = False
+    exemplar.show_originals(body.exemplar.token)
+    found["rig"] = [places(body, frame) for frame in (3, 18)]
+    body.modifiers["rig"].show_viewport = False
+    body.data.shape_keys.key_blocks["more"].value = 1.
+    found["more"] = places(body, 3)
+    body.data.shape_keys.key_blocks["more"].value = 0.
+    found["pose 2"] = exemplar.exemplar_blender.read_obj(exemplar.directory_of(body) / "pose_2.obj")[0].tolist()
+
+    # the folder goes elsewhere
+    bpy.ops.wm.save_mainfile()
+    (directory / "elsewhere").mkdir()
+    for name in ("film.blend", "film_bar"):
+        shutil.move(directory / name, directory / "elsewhere" / name)
+    bpy.ops.wm.open_mainfile(filepath=str(directory / "elsewhere/film.blend"))
+    found["moved folder"] = places(bpy.data.objects["bar result"], 18)
+    return found
+
+
+def case_half():
+    """Of the bar there is half; Mirror makes the other one."""
+    vertices, faces = bar()
+    kept = [face for face in faces if all(vertices[i][0] >= 0 for i in face)]
+    used = sorted({i for face in kept for i in face})
+    body = make_object("bar", [vertices[i] for i in used], [[used.index(i) for i in face] for face in kept])
+    body.data.materials.append(bpy.data.materials.new("fur"))
+    body.data.uv_layers.new(name="skin")
+    body.data.polygons.foreach_set("use_smooth", [True] * len(kept))
+    body.shape_key_add(name="Basis")
+    add_key(body, "thick", [(1.3 * x, y, z) for x, y, z in (vertices[i] for i in used)])
+    for name, height in (("feet", 0), ("low", 0), ("head", 4), ("high", 4)):
+        add_group(body, name, lambda x, y, z: z == height)
+    body.location = (0., 0., 1.)
+    body.modifiers.new("other side", "MIRROR")
+    make_rig(body)
+    body.modifiers.new("fine", "SUBSURF")
+    found = {"said": run(body)}
+    shown = bpy.data.objects["bar result"]
+    found.update(after=what_it_has(shown), modifiers=modifiers_of(shown), vertices=len(shown.data.vertices))
+    found["run"], found["shown"] = run_places(), without_what_is_behind(shown, range(3, 19))
+    body.modifiers.remove(body.modifiers["rig"])
+    found["stray keys"] = sum(keys.user is None for keys in bpy.data.shape_keys)
+    found["without rig"] = [run(body, follow="", stiffness=2e6), len(bpy.data.objects["bar result"].data.vertices)]
+    return found
+
+
+def case_centimetres():
+    found = {}
+    for name, unit in (("metres", 1.), ("centimetres", .01)):
+        scene.unit_settings.scale_length = unit
+        body = make_body(1. / unit)
+        make_rig(body, scale=1. / unit)
+        found[f"{name} said"] = run(body, follow="", stiffness=1e6, balanced=False)
+        found[name] = (unit * np.array(run_places()[-1])).tolist()
+        found[f"{name} prm"] = scene_file()
+        for item in list(bpy.data.objects):
+            bpy.data.objects.remove(item)
+    scene.gravity = (0., 0., -981.)
+    found["gravity"] = exemplar.scene_files.gravity_of(scene).tolist()
+    return found
+
+
+def case_regions():
+    body = make_body()
+    for name, chosen in (("exemplar region top", lambda x, y, z: z > 2), ("exemplar region foot", lambda x, y, z: z < 1)):
+        add_group(body, name, chosen)
+    make_rig(body)
+    body.data.shape_keys.key_blocks["bent"].value = .1  # as the artist left it
+    found = {"said": run(body, regions="PAINTED", weights="FREE", damping=1., inner_damping=.01, steps=2), "prm": scene_file()}
+    shown = bpy.data.objects["bar result"]
+    found["keys"] = [key.name for key in shown.data.shape_keys.key_blocks]
+    found["run"], found["shown"] = run_places(), without_what_is_behind(shown, range(3, 19))
+    return found
+
+
+def case_obstacles():
+    """A body that nothing holds falls on a floor of one face, which Subdivision makes many of, and which rises; a wall is hidden."""
+    body = make_body()
+    floor = make_object("floor", [(-5., -5., .7), (5., -5., .7), (5., 5., .7), (-5., 5., .7)], [(0, 1, 2, 3)])
+    floor.modifiers.new("fine", "SUBSURF").subdivision_type = "SIMPLE"
+    floor.modifiers.new("touch", "COLLISION")
+    floor.collision.friction_factor = .25
+    for frame, height in ((3, 0.), (18, .2)):
+        floor.location = (0., 0., height)
+        floor.keyframe_insert("location", frame=frame)
+    wall = make_object("wall", [(2., -5., 0.), (2., 5., 0.), (2., 0., 5.)], [(0, 1, 2)])
+    wall.modifiers.new("touch", "COLLISION")
+    wall.hide_set(True)
+    found = {"said": run(body, follow="", pin="", stiffness=1e6), "prm": scene_file()}
+    found["least"] = [min(x[2] for x in frame) for frame in run_places()]
+    floor.modifiers.new("grow", "BUILD").frame_duration = 10
+    found["grows"] = run(body, follow="", pin="", stiffness=1e6)
+    return found
+
+
+def case_spans():
+    body = make_body()
+    make_rig(body)
+    found = {"said": run(body, follow_until=10, pin_from=5), "prm": scene_file(), "end": run_places()[-1], "same": run(body, follow_from=10)}
+    return found
+
+
+def case_words():
+    """Messages of the program."""
+    body = make_body()
+    scene.gravity = (0., 0., -200.)
+    found = {"soft": run(body, follow="", stiffness=1e4)}
+    found["unbalanced"] = run(body, follow="", stiffness=1e4, balanced=False)
+    found["nothing holds"] = run(body, follow="", pin="", balanced=True)
+    found["nothing holds prm"] = scene_file()
+    add_group(body, "nobody", lambda x, y, z: False)
+    found["empty group"] = run(body, follow="", pin="nobody")
+    add_key(body, "inside out", [(-c[0], c[1], c[2]) for c in (vertex.co for vertex in body.data.vertices)])
+    found["bad key"] = run(body, follow="", pin="feet")
+    return found
+
+
+Path(result).write_text(json.dumps(globals()[f"case_{case}"]()))
