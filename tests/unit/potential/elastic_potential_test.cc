@@ -623,5 +623,74 @@ namespace Exemplar::Testing
       for (const double derivative : evaluation.weight_gradient)
         EXPECT_NEAR(derivative, 0., 1e-12 * evaluation.weight_scale);
     }
+
+    Vector
+    stretched(const Body &body, const double along_x, const double along_z)
+    {
+      Vector positions = body.fe_space.rest_positions();
+      for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
+      {
+        positions[3 * node] *= along_x;
+        positions[3 * node + 2] *= along_z;
+      }
+      return positions;
+    }
+
+    // Without a Poisson's ratio the stress of a bar pulled by e is E e, of which a cell has A E e / 3 at the node across a
+    // face of the area A = 3 V |grad phi|.
+    TEST(ForceScale, IsTheSumOfWhatCellsHaveAtANode)
+    {
+      constexpr double   e = 0.1;
+      MaterialParameters material;
+      material.everywhere.poissons_ratio = 0.;
+      const Body              body(box_mesh(4., 4, 1), material);
+      const FreeDofs          free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
+      const auto              examples = body.examples(ExampleParameters());
+      BodyPotential           elastic(body, ModelParameters(), examples, free_dofs);
+      const ElasticEvaluation evaluation = elastic.evaluate_at(stretched(body, 1. + e, 1.));
+      std::vector<double>     expected(body.fe_space.n_nodes());
+      for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
+        for (unsigned int a = 0; a < 4; ++a)
+        {
+          const Vector3<double> &g = body.fe_space.gradients(cell)[a];
+          expected[body.fe_space.nodes(cell)[a]] += body.fe_space.volume(cell)
+                                                    * material.everywhere.youngs_modulus * e
+                                                    * std::sqrt(dot(g, g));
+        }
+      for (unsigned int node = 0; node < expected.size(); ++node)
+        EXPECT_NEAR(evaluation.force_scale[node], expected[node], 1e-9 * expected[node]);
+    }
+
+    // The guard of Eq. (16) acts in cells that are badly inverted, not in all that are.
+    TEST(Guard, CountsOtherCellsThanInversion)
+    {
+      const Body     body;
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
+      const auto     examples = body.examples(two_examples());
+      BodyPotential  elastic(body, ModelParameters(), examples, free_dofs);
+      const auto     at = [&](const double along_z) {
+        return elastic.evaluate_at(stretched(body, 1., along_z), { 0., 0.5, 0.5 });
+      };
+      const unsigned int n = body.fe_space.n_cells();
+      EXPECT_EQ(at(-0.01).inverted_cells, n);
+      EXPECT_EQ(at(-0.01).guarded_cells, 0u);
+      EXPECT_EQ(at(-1.).inverted_cells, n);
+      EXPECT_EQ(at(-1.).guarded_cells, n);
+    }
+
+    // A bar whose stretch grows along x is least stretched at its end.
+    TEST(MinDetF, IsThatOfTheLeastStretchedCell)
+    {
+      const Body     body;
+      const FreeDofs free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
+      const auto     examples = body.examples(ExampleParameters());
+      BodyPotential  elastic(body, ModelParameters(), examples, free_dofs);
+      Vector         positions = body.fe_space.rest_positions();
+      for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
+        positions[3 * node] *= 1. + 0.1 * positions[3 * node];
+      const double least = elastic.evaluate_at(positions).min_det_F;
+      EXPECT_GT(least, 1.);
+      EXPECT_LT(least, 1.3); // the greatest is 1.7
+    }
   } // namespace
 } // namespace Exemplar::Testing
