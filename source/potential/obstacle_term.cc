@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/potential/barrier.h>
@@ -420,6 +421,28 @@ namespace Exemplar
                        add_to(sums->gradient, gap.nodes[i],
                               blocks[i][j] * at_node(displacement, gap.nodes[j]));
                  });
+  }
+
+  double
+  ObstacleTerm::rounding_force(const Vector &positions) const
+  {
+    const std::vector<Contact> all = contacts(positions);
+    if (all.empty())
+      return 0.;
+    // both points of a gap are rounded
+    const double of_distance = 4. * std::numeric_limits<double>::epsilon()
+                               * max_entry(positions.begin(), positions.end());
+    std::vector<double> squares(positions.size() / 3);
+    for (const Contact &contact : all)
+      if (contact.gap.distance > 0.)
+      {
+        const Gap   &gap = contact.gap;
+        const double force
+            = of_distance * Barrier{ gap.stiffness, gap.width }.curvature(gap.distance);
+        for (unsigned int i = 0; i < gap.n_nodes; ++i)
+          squares[gap.nodes[i]] += std::pow(gap.coefficients[i] * force, 2);
+      }
+    return std::sqrt(max_entry(squares));
   }
 
   // What is shown and remembered

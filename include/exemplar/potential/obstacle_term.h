@@ -106,6 +106,9 @@ namespace Exemplar
     double
     max_step(const Vector &positions, const Vector &displacement) const override;
 
+    double
+    rounding_force(const Vector &positions) const override;
+
     void
     append_columns(double                                       energy,
                    std::vector<std::pair<std::string, double>> &columns) const override;

@@ -149,6 +149,61 @@ namespace Exemplar::Testing
     }
   }
 
+  TEST(ObstacleTerm, TheConvexTangentIsAboveTheExactOne)
+  {
+    // so that a step with it is never longer than what the curvature of distances allows: far below
+    // the width that curvature is the greater part
+    std::mt19937                     generator(3);
+    std::normal_distribution<double> normal;
+    for (const std::string &shape : shapes)
+    {
+      SCOPED_TRACE(shape);
+      const Above  above(shape);
+      const auto   all     = above.term->contacts(above.lowered(0.15, 2));
+      unsigned int n_above = 0;
+      for (const Contact &contact : all)
+      {
+        const ContactHessian exact  = hessian_of(contact, Tangent::exact),
+                             convex = hessian_of(contact, Tangent::convex);
+        const unsigned int n        = contact.gap.n_nodes;
+        for (unsigned int sample = 0; sample < 20; ++sample)
+        {
+          std::array<SpaceVector3, 3> v;
+          double                      of_exact = 0., of_convex = 0., size = 0.;
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int c = 0; c < 3; ++c)
+              v[i][c] = normal(generator);
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = 0; j < n; ++j)
+            {
+              of_exact += v[i] * (exact[i][j] * v[j]);
+              of_convex += v[i] * (convex[i][j] * v[j]);
+              size += exact[i][j].norm();
+            }
+          EXPECT_GE(of_convex, std::max(0., of_exact) - 1e-12 * size);
+          n_above += of_convex > of_exact + 1e-12 * size;
+        }
+      }
+      EXPECT_EQ(n_above > 0, !all[0].at.is_flat);
+    }
+  }
+
+  TEST(ObstacleTerm, RoundingOfDistancesIsKnown)
+  {
+    // of a node at a distance d, k/w * O(1) times the rounding of both points
+    const Above above("plane 0 0 -0.7 0 0 1");
+    Vector      x = above.problem.state.positions;
+    EXPECT_EQ(above.term->rounding_force(x), 0.);
+    for (unsigned int dof = 2; dof < x.size(); dof += 3)
+      x[dof] -= 0.1;
+    const double own  = above.term->rounding_force(x);
+    double       most = 0.;
+    for (const Contact &contact : above.term->contacts(x))
+      most = std::max(most, contact.gap.stiffness / contact.gap.width);
+    EXPECT_GT(own, most * 1e-16);
+    EXPECT_LT(own, most * 1e-14);
+  }
+
   TEST(ObstacleTerm, ForcesHaveNoTorqueAboutTheObstacle)
   {
     // the body's forces on a sphere go through its middle
