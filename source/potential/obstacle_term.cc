@@ -20,7 +20,8 @@ namespace Exemplar
                              const Material       &material)
       : obstacles(obstacles), surface(surface), material(material),
         have_friction(obstacles.have_friction()), sums_of(obstacles.all.size()),
-        has_appeared(obstacles.all.size(), 0), least_gap(obstacles.width)
+        has_appeared(obstacles.all.size(), 0), kept(obstacles.all.size()),
+        least_gap(obstacles.width)
   {
     for (const Obstacle &obstacle : obstacles.all)
       standing.emplace_back(obstacle);
@@ -61,13 +62,19 @@ namespace Exemplar
       obstacle.move_to(time);
   }
 
+  ContactSearch
+  ObstacleTerm::search(const unsigned int obstacle) const
+  {
+    return { surface, obstacles, standing[obstacle], obstacle, &kept[obstacle] };
+  }
+
   std::vector<Contact>
   ObstacleTerm::contacts(const Vector &positions, const double range) const
   {
     std::vector<Contact> result;
     for (unsigned int i = 0; i < standing.size(); ++i)
       if (is_there(i))
-        ContactSearch(surface, obstacles, standing[i], i).append(positions, range, result);
+        search(i).append(positions, range, result);
     return result;
   }
 
@@ -101,8 +108,7 @@ namespace Exemplar
     double part = std::numeric_limits<double>::infinity();
     for (unsigned int i = 0; i < standing.size(); ++i)
       if (is_there(i))
-        part = std::min(part, ContactSearch(surface, obstacles, standing[i], i)
-                                  .max_step_to(to_time, positions, displacement));
+        part = std::min(part, search(i).max_step_to(to_time, positions, displacement));
     return part;
   }
 
@@ -112,10 +118,7 @@ namespace Exemplar
                          const Vector &displacement) const
   {
     for (unsigned int i = 0; i < standing.size(); ++i)
-      if (is_there(i)
-          && ContactSearch(surface, obstacles, standing[i], i)
-                     .max_step_to(to_time, positions, displacement)
-                 < 1.)
+      if (is_there(i) && search(i).max_step_to(to_time, positions, displacement) < 1.)
         return "the obstacle '" + obstacles.all[i].name() + "'";
     return PotentialTerm::limit_to(to_time, positions, displacement);
   }
@@ -126,9 +129,7 @@ namespace Exemplar
     double part = std::numeric_limits<double>::infinity();
     for (unsigned int i = 0; i < standing.size(); ++i)
       if (is_there(i))
-        part = std::min(
-            part,
-            ContactSearch(surface, obstacles, standing[i], i).max_step(positions, displacement));
+        part = std::min(part, search(i).max_step(positions, displacement));
     return part;
   }
 
@@ -530,6 +531,9 @@ namespace Exemplar
                         + rubbing.size() * sizeof(Rubbing) + start.memory_consumption();
     for (const Obstacle &obstacle : obstacles.all)
       bytes += obstacle.memory_consumption();
+    for (const KeptPairs &pairs : kept)
+      bytes += pairs.pairs.capacity() * sizeof(ContactPair)
+               + pairs.places.capacity() * sizeof(SpaceVector3);
     for (const auto &widths : obstacles.start_widths)
       bytes += widths.size() * 4 * sizeof(double);
     return bytes;

@@ -153,6 +153,9 @@ namespace Exemplar
       }
     };
 
+    ContactSearch
+    search(unsigned int obstacle) const;
+
     /// What an obstacle does at the nodes of a contact: call visit(obstacle, node, force on the body [N]).
     template <typename Visit>
     void
@@ -202,13 +205,14 @@ namespace Exemplar
     std::vector<Rubbing>          rubbing; ///< since the last renewal
     unsigned int                  n_renewals = 0;
     std::vector<Sums>             sums_of; ///< of this process
-    std::vector<char>       has_appeared;  ///< of those with From, whether they have been there
-    double                  barrier_energy = 0.; ///< where a step ended
-    double                  least_gap;
-    double                  n_pairs = 0.;
-    std::vector<double>     node_areas;          ///< of the whole body, by node [m^2]
-    const SymmetricPattern *pattern   = nullptr; ///< since attach()
-    const FreeDofs         *free_dofs = nullptr; ///< since attach()
+    std::vector<char> has_appeared;        ///< of those with From, whether they have been there
+    mutable std::vector<KeptPairs> kept;   ///< of each obstacle; no result depends on it
+    double                         barrier_energy = 0.; ///< where a step ended
+    double                         least_gap;
+    double                         n_pairs = 0.;
+    std::vector<double>            node_areas;          ///< of the whole body, by node [m^2]
+    const SymmetricPattern        *pattern   = nullptr; ///< since attach()
+    const FreeDofs                *free_dofs = nullptr; ///< since attach()
   };
 } // namespace Exemplar
 

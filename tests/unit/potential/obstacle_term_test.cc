@@ -201,7 +201,7 @@ namespace Exemplar::Testing
     for (const Contact &contact : above.term->contacts(x))
       most = std::max(most, contact.gap.stiffness / contact.gap.width);
     EXPECT_GT(own, most * 1e-16);
-    EXPECT_LT(own, most * 1e-14);
+    EXPECT_LT(own, most * 1e-13);
   }
 
   TEST(ObstacleTerm, ForcesHaveNoTorqueAboutTheObstacle)
