@@ -364,7 +364,8 @@ namespace Exemplar
                           const double  own_way,
                           double        longest) const
   {
-    visit_candidates(places, ends, own_way,
+    // what ends near without meeting is bound as well
+    visit_candidates(places, ends, own_way + part_left * obstacles.width,
                      [&](const ContactPair &pair)
                      {
                        const PairCorners           x = corners(pair, places);

@@ -223,6 +223,42 @@ namespace Exemplar::Testing
     }
   }
 
+  TEST(ObstacleTerm, FrictionIsThatOfTheVelocityOfTheScheme)
+  {
+    // by BDF2 the body stands still where it ends a third of the last step farther
+    for (const std::string scheme : { "implicit euler", "bdf2" })
+    {
+      const Above above("plane 0 0 -0.9 0 0 1", { "Time/Scheme=" + scheme });
+      State       state = above.problem.state;
+      for (unsigned int dof = 2; dof < state.positions.size(); dof += 3)
+        state.positions[dof] -= 0.3;
+      Vector still              = state.positions;
+      state.previous_positions  = state.positions;
+      state.previous_velocities = state.velocities;
+      state.previous_step       = 0.02;
+      for (unsigned int dof = 0; dof < still.size(); dof += 3)
+      {
+        state.previous_positions[dof] -= 0.3;
+        still[dof] += scheme == "bdf2" ? 0.1 : 0.;
+      }
+      above.problem.potential.begin_step(state, 0.02);
+      const auto along = [&](const Vector &x)
+      {
+        const ElasticSums sums = above.sums(x);
+        double            most = 0.;
+        for (unsigned int dof = 0; dof < x.size(); dof += 3)
+          most = std::max(most, std::abs(sums->gradient[dof]));
+        return most;
+      };
+      EXPECT_NEAR(along(still), 0., 1e-6);
+      Vector moved = still;
+      for (unsigned int dof = 0; dof < still.size(); dof += 3)
+        moved[dof] += 1e-3;
+      EXPECT_GT(along(moved), 1.);
+      above.problem.potential.leave_step(state);
+    }
+  }
+
   TEST(ObstacleTerm, StepsEndBeforeTheObstacle)
   {
     for (const std::string &shape : shapes)
@@ -249,6 +285,21 @@ namespace Exemplar::Testing
       EXPECT_LE(least(part), 0.35 * least(0.));
       way *= -1.;
       EXPECT_GE(above.term->max_step(x, way), shape.compare(0, 6, "inside") == 0 ? 0.5 : 1.);
+    }
+  }
+
+  TEST(ObstacleTerm, AWayThatEndsAtTheObstacleIsBound)
+  {
+    // boxes of what ends as far as that may not meet, by rounding
+    for (const double length : { 0.249, 0.25 - 1e-9, 0.25, 0.25 + 1e-15 })
+    {
+      const Above above("sphere 2.1 0.1 -1.45 0.7");
+      Vector      way(above.problem.state.positions.size());
+      for (unsigned int dof = 2; dof < way.size(); dof += 3)
+        way[dof] = -length;
+      const double part = above.term->max_step(above.problem.state.positions, way);
+      EXPECT_GT(part, 0.85);
+      EXPECT_LT(part, 0.95);
     }
   }
 
