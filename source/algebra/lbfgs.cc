@@ -6,12 +6,12 @@
 
 namespace Exemplar
 {
-  void
+  bool
   Lbfgs::add_pair(std::vector<double> &s, std::vector<double> &y)
   {
     const double curvature = exchange->sum(dot(s, y));
     if (!(curvature > 0.))
-      return;
+      return false;
     if (pairs.size() == max_pairs)
       std::rotate(pairs.begin(), pairs.begin() + 1, pairs.end()); // the oldest becomes the newest
     else
@@ -21,6 +21,7 @@ namespace Exemplar
     newest.y.swap(y);
     newest.rho = 1. / curvature;
     newest.inverse_y.clear();
+    return true;
   }
 
   void

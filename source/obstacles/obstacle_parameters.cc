@@ -97,6 +97,13 @@ namespace Exemplar
     return "surface " + (directory / file).lexically_normal().string();
   }
 
+  namespace
+  {
+    const EnumTable<FreeBodies> kinds_of_free = { { FreeBodies::refused, "refused" },
+                                                  { FreeBodies::friction, "friction" },
+                                                  { FreeBodies::weak_springs, "weak springs" } };
+  } // namespace
+
   void
   ObstaclesParameters::declare(KeyTable &keys)
   {
@@ -109,6 +116,10 @@ namespace Exemplar
              "Friction follows normal forces until they change by less than this part of the "
              "greatest.",
              Bounds{ 1e-14, 1. });
+    keys.add("Free", free, kinds_of_free,
+             "Static scenes: what holds a body that handles leave free. refused: nothing does. "
+             "friction: friction with obstacles. weak springs: springs to where it stands at rest, "
+             "of 1e-6 of Young's modulus times its diameter.");
   }
 
   namespace
@@ -130,6 +141,9 @@ namespace Exemplar
     check_length(slip_speed, "Obstacles/Slip speed", "m/s");
     for (const ObstacleParameters &obstacle : named)
       obstacle.check();
+    if (free == FreeBodies::friction && !named.empty() && !has_friction())
+      throw UserError("Obstacles/Free = friction, but no obstacle has friction. Set "
+                      "Obstacles/NAME/Friction of one, or Obstacles/Free = weak springs.");
   }
 
   bool

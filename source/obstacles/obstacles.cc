@@ -10,7 +10,8 @@ namespace Exemplar
                        const double               diameter,
                        const ObstacleSurfaces    &surfaces)
       : width(parameters.distance_of(diameter)), slip_speed(parameters.slip_speed_of(diameter)),
-        lag_tolerance(parameters.lag_tolerance), start_widths(parameters.named.size())
+        lag_tolerance(parameters.lag_tolerance), free(parameters.free), diameter(diameter),
+        start_widths(parameters.named.size())
   {
     for (const ObstacleParameters &obstacle : parameters.named)
     {

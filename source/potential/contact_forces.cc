@@ -2,6 +2,11 @@
 #include <exemplar/potential/barrier.h>
 #include <exemplar/potential/contact_forces.h>
 
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+
 namespace Exemplar
 {
   namespace
@@ -92,31 +97,79 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// Without the curvature of the distance, which a barrier counts the other way round where the distance is convex.
+    ContactHessian
+    hessian_along_normal(const Contact &contact)
+    {
+      const Gap     &gap       = contact.gap;
+      const double   curvature = contact.m * full_barrier(contact).curvature(gap.distance);
+      const auto     n_n       = dealii::outer_product(gap.normal, gap.normal);
+      ContactHessian result;
+      for (unsigned int i = 0; i < gap.n_nodes; ++i)
+        for (unsigned int j = 0; j < gap.n_nodes; ++j)
+          result[i][j] = curvature * gap.coefficients[i] * gap.coefficients[j] * n_n;
+      return result;
+    }
+
+    ContactHessian
+    exact_hessian(const Contact &contact)
+    {
+      const Barrier  barrier = full_barrier(contact);
+      const Gap     &gap     = contact.gap;
+      const double   d = gap.distance, slope = barrier.slope(d);
+      ContactHessian result      = hessian_along_normal(contact),
+                     of_distance = curvature_of_distance(contact);
+      for (unsigned int i = 0; i < gap.n_nodes; ++i)
+        for (unsigned int j = 0; j < gap.n_nodes; ++j)
+        {
+          result[i][j] += contact.m * slope * of_distance[i][j];
+          if (contact.m == 1.)
+            continue;
+          const double c_i = gap.coefficients[i], c_j = gap.coefficients[j];
+          const double s_i = signs_of_edge[i], s_j = signs_of_edge[j];
+          result[i][j] += slope
+                              * (c_i * s_j * dealii::outer_product(gap.normal, contact.by_edge)
+                                 + s_i * c_j * dealii::outer_product(contact.by_edge, gap.normal))
+                          + barrier.value(d) * s_i * s_j * contact.by_edge_twice;
+        }
+      return result;
+    }
+
+    /// The nearest matrix without negative eigenvalues.
+    void
+    project(ContactHessian &blocks, const unsigned int n_nodes)
+    {
+      const unsigned int               n = 3 * n_nodes;
+      dealii::LAPACKFullMatrix<double> matrix(n, n);
+      double                           greatest = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+        {
+          matrix(i, j) = blocks[i / 3][j / 3][i % 3][j % 3];
+          greatest     = std::max(greatest, std::abs(matrix(i, j)));
+        }
+      dealii::Vector<double>     values;
+      dealii::FullMatrix<double> vectors;
+      matrix.compute_eigenvalues_symmetric(-2. * n * greatest, 0., 0., values, vectors);
+      for (unsigned int e = 0; e < values.size(); ++e)
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            blocks[i / 3][j / 3][i % 3][j % 3] -= values[e] * vectors(i, e) * vectors(j, e);
+    }
+  } // namespace
+
   ContactHessian
   hessian_of(const Contact &contact, const Tangent kind)
   {
-    const Barrier  barrier   = full_barrier(contact);
-    const Gap     &gap       = contact.gap;
-    const double   d         = gap.distance;
-    const double   curvature = contact.m * barrier.curvature(d), slope = barrier.slope(d);
-    const auto     n_n = dealii::outer_product(gap.normal, gap.normal);
-    ContactHessian result;
-    if (kind == Tangent::exact)
-      result = curvature_of_distance(contact);
-    for (unsigned int i = 0; i < gap.n_nodes; ++i)
-      for (unsigned int j = 0; j < gap.n_nodes; ++j)
-      {
-        const double c_i = gap.coefficients[i], c_j = gap.coefficients[j];
-        result[i][j] *= contact.m * slope;
-        result[i][j] += curvature * c_i * c_j * n_n;
-        if (kind == Tangent::convex || contact.m == 1.)
-          continue;
-        const double s_i = signs_of_edge[i], s_j = signs_of_edge[j];
-        result[i][j] += slope
-                            * (c_i * s_j * dealii::outer_product(gap.normal, contact.by_edge)
-                               + s_i * c_j * dealii::outer_product(contact.by_edge, gap.normal))
-                        + barrier.value(d) * s_i * s_j * contact.by_edge_twice;
-      }
+    // the distance of a node from what is convex, as from all parts of an obstacle, is convex: nothing of it is left
+    const bool is_of_node = contact.gap.n_nodes == 1;
+    if (kind == Tangent::convex && is_of_node)
+      return hessian_along_normal(contact);
+    ContactHessian result = exact_hessian(contact);
+    if (kind == Tangent::convex)
+      project(result, contact.gap.n_nodes);
     return result;
   }
 

@@ -22,6 +22,9 @@ namespace Exemplar
 
     /// Of an obstacle in one go, so that its way in space is almost straight [rad].
     constexpr double greatest_turn_at_once = 0.0873;
+
+    /// Widths by which more pairs are kept than are asked for, and up to which a search is kept at all.
+    constexpr double skin = 1., greatest_kept_reach = 2.;
   } // namespace
 
   void
@@ -31,7 +34,8 @@ namespace Exemplar
     const bool is_made = !vertices.empty();
     if (is_made && !obstacle->deforms() && version == obstacle->version())
       return;
-    version           = obstacle->version();
+    version = obstacle->version();
+    ++n_moves;
     vertices          = obstacle->vertices(time);
     around            = {};
     const auto box_of = [&](const auto &corners)
@@ -147,17 +151,76 @@ namespace Exemplar
     }
   }
 
+  double
+  ContactSearch::farthest(const Places &places, const Places &others) const
+  {
+    double result = 0.;
+    for (const ContactSurface::Node &at : surface.nodes)
+      for (unsigned int c = 0; c < 3; ++c)
+        result = std::max(result, std::abs(places[at.node][c] - others[at.node][c]));
+    return result;
+  }
+
+  bool
+  ContactSearch::keep(const Places &places, const Places &ends, const double reach) const
+  {
+    if (standing.vertices.empty()) // half spaces are near all nodes
+      return false;
+    if (kept->n_moves == standing.n_moves && kept->places.size() == places.size()
+        && reach + std::max(farthest(kept->places, places), farthest(kept->places, ends))
+               <= kept->reach)
+      return true;
+    const double all_of_it = reach + farthest(places, ends);
+    if (!(all_of_it <= greatest_kept_reach * obstacles.width))
+      return false;
+    kept->places  = places;
+    kept->n_moves = standing.n_moves;
+    kept->reach   = all_of_it + skin * obstacles.width;
+    kept->pairs.clear();
+    constexpr double more_than_rounding = 1. + 1e-6;
+    search(places, places, more_than_rounding * kept->reach,
+           [&](const ContactPair &pair) { kept->pairs.push_back(pair); });
+    return true;
+  }
+
+  AxisBox
+  ContactSearch::box_of_obstacle(const ContactPair &pair) const
+  {
+    const ObstacleShape &shape = standing.shape();
+    AxisBox              box;
+    const auto           add = [&](const auto &part)
+    {
+      for (const unsigned int v : part)
+        box.add(standing.vertices[v]);
+    };
+    if (pair.kind == PairKind::node_box)
+      return standing.around;
+    if (pair.kind == PairKind::node_triangle)
+      add(shape.triangles[pair.of_obstacle]);
+    else if (pair.kind == PairKind::triangle_point)
+      box.add(standing.vertices[shape.points[pair.of_obstacle]]);
+    else
+      add(shape.edges[pair.of_obstacle]);
+    return box;
+  }
+
+  double
+  ContactSearch::height(const ContactPair &pair, const SpaceVector3 &place) const
+  {
+    const auto &half_space = standing.shape().half_spaces[pair.of_obstacle];
+    return half_space.normal * place - half_space.offset;
+  }
+
   PairDistance
   ContactSearch::distance(const ContactPair &pair, const std::array<SpaceVector3, 3> &x) const
   {
     PairDistance at;
     if (pair.kind == PairKind::node_half_space)
     {
-      const auto &half_space = standing.shape().half_spaces[pair.of_obstacle];
-      at.nearest.a[0]        = 1.;
-      at.normal              = half_space.normal;
-      at.distance            = half_space.normal * x[0] - half_space.offset;
-      at.is_flat             = true;
+      at.nearest.a[0] = 1.;
+      at.normal       = standing.shape().half_spaces[pair.of_obstacle].normal;
+      at.distance     = height(pair, x[0]);
+      at.is_flat      = true;
       return at;
     }
     at.nearest          = nearest_of(pair, x);
@@ -243,6 +306,10 @@ namespace Exemplar
     visit_candidates(places, places, range * obstacles.width,
                      [&](const ContactPair &pair)
                      {
+                       if (pair.kind == PairKind::node_half_space
+                           && !(height(pair, places[surface.nodes[pair.of_body].node])
+                                < range * obstacles.width))
+                         return; // as most are
                        const PairCorners  x  = corners(pair, places);
                        const PairDistance at = distance(pair, x.places);
                        if (at.distance < range * width(pair))
@@ -297,7 +364,8 @@ namespace Exemplar
                           const double  own_way,
                           double        longest) const
   {
-    visit_candidates(places, ends, own_way,
+    // what ends near without meeting is bound as well
+    visit_candidates(places, ends, own_way + part_left * obstacles.width,
                      [&](const ContactPair &pair)
                      {
                        const PairCorners           x = corners(pair, places);

@@ -29,11 +29,11 @@ namespace Exemplar
     estimate_rounding(const ElasticParts &parts)
     {
       // F of Eq. (1) carries the rounding of the positions, divided by the cell's size
-      const FESpace  &fe_space     = parts.fe_space;
-      const Exchange &exchange     = fe_space.exchange();
-      const double    of_positions = 2. * std::numeric_limits<double>::epsilon()
-                                  * exchange.max(fe_space.rest_positions().linfty_norm());
-      CellRounding rounding;
+      const FESpace  &fe_space = parts.fe_space;
+      const Exchange &exchange = fe_space.exchange();
+      CellRounding    rounding;
+      rounding.rest_size        = exchange.max(fe_space.rest_positions().linfty_norm());
+      const double of_positions = 2. * std::numeric_limits<double>::epsilon() * rounding.rest_size;
       Vector       force(fe_space.n_nodes());
       for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       {
@@ -111,6 +111,15 @@ namespace Exemplar
   {
     cells.get_batches().set_constants(parts.cell_material, parts.examples.constants());
     rounding = estimate_rounding(parts);
+  }
+
+  double
+  ElasticPotential::rounding_force(const double size) const
+  {
+    // both strains that damping compares have rounding of their own, the decomposition's, too
+    const double of_strains = 1. + 8. * cells.get_damping().factor();
+    // a body far from the origin has coarser positions than at rest
+    return of_strains * rounding.force * std::max(1., size / rounding.rest_size);
   }
 
   double

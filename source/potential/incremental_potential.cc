@@ -228,9 +228,10 @@ namespace Exemplar
   Residual
   IncrementalPotential::residual(const State &at, const Evaluation &evaluation) const
   {
-    double rounding = body.rounding_force();
+    double rounding = body.rounding_force(
+        free_dofs.exchange().max(max_entry(at.positions.begin(), at.positions.end())));
     for (const auto &term : terms)
-      rounding += term->rounding_force();
+      rounding += term->rounding_force(at.positions);
     rounding = free_dofs.exchange().max(rounding);
     Residual residual;
     residual.positions        = relative(free_dofs.max_magnitude(evaluation.gradient),

@@ -89,7 +89,7 @@ namespace Exemplar
   }
 
   double
-  InertiaTerm::rounding_force() const
+  InertiaTerm::rounding_force(const Vector & /*positions*/) const
   {
     return in_step ? 4. * std::numeric_limits<double>::epsilon() * predicted_size
                          * mass.max_nodal_mass() * integrator.mass_factor()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/potential/barrier.h>
@@ -16,15 +17,20 @@ namespace Exemplar
 {
   ObstacleTerm::ObstacleTerm(const Obstacles      &obstacles,
                              const ContactSurface &surface,
-                             const Material       &material)
+                             const Material       &material,
+                             const Vector         &rest_positions,
+                             const TimeIntegrator *integrator)
       : obstacles(obstacles), surface(surface), material(material),
-        have_friction(obstacles.have_friction()), sums_of(obstacles.all.size()),
-        has_appeared(obstacles.all.size(), 0), least_gap(obstacles.width)
+        have_friction(obstacles.have_friction()), integrator(integrator),
+        sums_of(obstacles.all.size()), has_appeared(obstacles.all.size(), 0),
+        kept(obstacles.all.size()), least_gap(obstacles.width)
   {
     for (const Obstacle &obstacle : obstacles.all)
       standing.emplace_back(obstacle);
     move_to(0.);
     follow_parameters();
+    if (integrator == nullptr && obstacles.free != FreeBodies::refused)
+      springs.emplace(obstacles.free, obstacles.diameter, this->surface, rest_positions);
   }
 
   void
@@ -32,6 +38,8 @@ namespace Exemplar
   {
     pattern   = &new_pattern;
     free_dofs = &new_free_dofs;
+    if (springs)
+      springs->attach(new_pattern, new_free_dofs);
     if (!node_areas.empty())
       return;
     node_areas.assign(free_dofs->n_dofs() / 3, 0.);
@@ -60,13 +68,19 @@ namespace Exemplar
       obstacle.move_to(time);
   }
 
+  ContactSearch
+  ObstacleTerm::search(const unsigned int obstacle) const
+  {
+    return { surface, obstacles, standing[obstacle], obstacle, &kept[obstacle] };
+  }
+
   std::vector<Contact>
   ObstacleTerm::contacts(const Vector &positions, const double range) const
   {
     std::vector<Contact> result;
     for (unsigned int i = 0; i < standing.size(); ++i)
       if (is_there(i))
-        ContactSearch(surface, obstacles, standing[i], i).append(positions, range, result);
+        search(i).append(positions, range, result);
     return result;
   }
 
@@ -100,8 +114,7 @@ namespace Exemplar
     double part = std::numeric_limits<double>::infinity();
     for (unsigned int i = 0; i < standing.size(); ++i)
       if (is_there(i))
-        part = std::min(part, ContactSearch(surface, obstacles, standing[i], i)
-                                  .max_step_to(to_time, positions, displacement));
+        part = std::min(part, search(i).max_step_to(to_time, positions, displacement));
     return part;
   }
 
@@ -111,10 +124,7 @@ namespace Exemplar
                          const Vector &displacement) const
   {
     for (unsigned int i = 0; i < standing.size(); ++i)
-      if (is_there(i)
-          && ContactSearch(surface, obstacles, standing[i], i)
-                     .max_step_to(to_time, positions, displacement)
-                 < 1.)
+      if (is_there(i) && search(i).max_step_to(to_time, positions, displacement) < 1.)
         return "the obstacle '" + obstacles.all[i].name() + "'";
     return PotentialTerm::limit_to(to_time, positions, displacement);
   }
@@ -125,9 +135,7 @@ namespace Exemplar
     double part = std::numeric_limits<double>::infinity();
     for (unsigned int i = 0; i < standing.size(); ++i)
       if (is_there(i))
-        part = std::min(
-            part,
-            ContactSearch(surface, obstacles, standing[i], i).max_step(positions, displacement));
+        part = std::min(part, search(i).max_step(positions, displacement));
     return part;
   }
 
@@ -142,12 +150,32 @@ namespace Exemplar
     in_step   = true;
     follow_times(at);
     rubbing.clear();
-    n_renewals = 0;
-    if (!have_friction)
-      return;
-    at_start = standing;
-    for (StandingObstacle &obstacle : at_start)
-      obstacle.move_to(at.time);
+    n_renewals   = 0;
+    is_beginning = true;
+    if (springs)
+      springs->begin_step(at.positions);
+    if (have_friction)
+      remember_slip_base(at);
+  }
+
+  void
+  ObstacleTerm::remember_slip_base(const State &at)
+  {
+    rate = integrator != nullptr ? integrator->rate_factor() : 1. / step_size;
+    const std::vector<WeightedPositions> history
+        = integrator != nullptr ? integrator->history(at)
+                                : std::vector<WeightedPositions>{ { 1., &at.positions } };
+    slip_base.reinit(at.positions.size());
+    earlier.clear();
+    double time_then = at.time;
+    for (const WeightedPositions &then : history)
+    {
+      slip_base.add(then.weight, *then.positions);
+      earlier.push_back({ then.weight, standing });
+      for (StandingObstacle &obstacle : earlier.back().standing)
+        obstacle.move_to(time_then);
+      time_then -= at.previous_step;
+    }
   }
 
   void
@@ -246,8 +274,11 @@ namespace Exemplar
     const auto [own_greatest, own_change] = force_and_change(fresh, rubbing);
     const double greatest                 = free_dofs->exchange().max(own_greatest);
     const double change                   = free_dofs->exchange().max(own_change);
+    // where a step begins nothing may push yet
+    const bool lets_go = springs && (greatest > 0. || !is_beginning) && springs->let_go();
+    is_beginning       = false;
     if (change <= obstacles.lag_tolerance * greatest)
-      return TermChange::none;
+      return lets_go ? TermChange::values : TermChange::none;
     ++n_renewals;
     rubbing = std::move(fresh);
     return TermChange::values;
@@ -256,15 +287,20 @@ namespace Exemplar
   SpaceVector3
   ObstacleTerm::slip(const Rubbing &at, const Vector &positions) const
   {
-    const StandingObstacle &now = standing[at.obstacle], &then = at_start[at.obstacle];
-    SpaceVector3            own_then = at.own_place;
-    if (now.obstacle->deforms())
-      for (unsigned int k = 0; k < 3; ++k)
-        own_then += at.shares[k] * (then.vertices[at.vertices[k]] - now.vertices[at.vertices[k]]);
-    SpaceVector3 u = then.pose.to_space(own_then) - now.pose.to_space(at.own_place);
+    const StandingObstacle &now = standing[at.obstacle];
+    SpaceVector3            u   = -now.pose.to_space(at.own_place);
+    for (const Earlier &before : earlier)
+    {
+      const StandingObstacle &then     = before.standing[at.obstacle];
+      SpaceVector3            own_then = at.own_place;
+      if (now.obstacle->deforms())
+        for (unsigned int k = 0; k < 3; ++k)
+          own_then += at.shares[k] * (then.vertices[at.vertices[k]] - now.vertices[at.vertices[k]]);
+      u += before.weight * then.pose.to_space(own_then);
+    }
     for (unsigned int i = 0; i < at.gap.n_nodes; ++i)
       u += at.gap.coefficients[i]
-           * (at_node(positions, at.gap.nodes[i]) - at_node(start, at.gap.nodes[i]));
+           * (at_node(positions, at.gap.nodes[i]) - at_node(slip_base, at.gap.nodes[i]));
     return u - (u * at.gap.normal) * at.gap.normal;
   }
 
@@ -275,8 +311,15 @@ namespace Exemplar
       return {};
     double heat = 0.;
     for (const Rubbing &at : rubbing)
-      heat += slip_energy(at).heat(slip(at, end.positions).norm());
+      heat += heat_of(at, end.positions);
     return heat;
+  }
+
+  double
+  ObstacleTerm::heat_of(const Rubbing &at, const Vector &positions) const
+  {
+    // of a velocity that lasts for the step
+    return rate * step_size * slip_energy(at).heat(slip(at, positions).norm());
   }
 
   template <typename Visit>
@@ -314,8 +357,10 @@ namespace Exemplar
       least_gap = std::min(least_gap, contact.gap.distance);
       n_pairs += 1.;
     }
+    if (springs)
+      force_of_springs = springs->force(end.positions);
     for (const Rubbing &at : rubbing)
-      sums_of[at.obstacle].heat += slip_energy(at).heat(slip(at, end.positions).norm());
+      sums_of[at.obstacle].heat += heat_of(at, end.positions);
     visit_forces(
         end.positions,
         [&](const unsigned int obstacle, const unsigned int node, const SpaceVector3 &force)
@@ -332,6 +377,8 @@ namespace Exemplar
   ObstacleTerm::leave_step()
   {
     in_step = false;
+    if (springs)
+      springs->leave_step();
     rubbing.clear();
     there.clear();
   }
@@ -364,6 +411,8 @@ namespace Exemplar
       for (unsigned int i = 0; i < rub.gap.n_nodes; ++i)
         add_force(rub.gap.nodes[i], rub.gap.coefficients[i] * force);
     }
+    if (springs)
+      springs->add(at.positions, sums);
   }
 
   template <typename Visit>
@@ -404,6 +453,8 @@ namespace Exemplar
                              values[pattern->position(row, column)] += blocks[i][j][a][b];
                          }
                  });
+    if (springs)
+      springs->add_tangent(values);
   }
 
   void
@@ -420,6 +471,32 @@ namespace Exemplar
                        add_to(sums->gradient, gap.nodes[i],
                               blocks[i][j] * at_node(displacement, gap.nodes[j]));
                  });
+    if (springs)
+      springs->add_response(displacement, sums);
+  }
+
+  double
+  ObstacleTerm::rounding_force(const Vector &positions) const
+  {
+    const std::vector<Contact> all = contacts(positions);
+    if (all.empty())
+      return 0.;
+    // both points of a gap are rounded
+    const double of_distance = 4. * std::numeric_limits<double>::epsilon()
+                               * max_entry(positions.begin(), positions.end());
+    // nearer the whole force is rounding, and nothing is solved
+    const double        least_distance = 1e4 * of_distance;
+    std::vector<double> squares(positions.size() / 3);
+    for (const Contact &contact : all)
+      if (contact.gap.distance > least_distance)
+      {
+        const Gap   &gap = contact.gap;
+        const double force
+            = of_distance * Barrier{ gap.stiffness, gap.width }.curvature(gap.distance);
+        for (unsigned int i = 0; i < gap.n_nodes; ++i)
+          squares[gap.nodes[i]] += std::pow(gap.coefficients[i] * force, 2);
+      }
+    return std::sqrt(max_entry(squares));
   }
 
   // What is shown and remembered
@@ -463,6 +540,10 @@ namespace Exemplar
     }
     if (have_friction)
       columns.emplace_back("heat_friction", heat);
+    for (unsigned int c = 0; c < 3 && springs && springs->get_kind() == FreeBodies::weak_springs;
+         ++c)
+      columns.emplace_back(std::string("weak_springs_") + "xyz"[c],
+                           exchange.sum(force_of_springs[c]));
   }
 
   void
@@ -491,13 +572,15 @@ namespace Exemplar
   void
   ObstacleTerm::save(boost::archive::binary_oarchive &archive) const
   {
-    archive << has_appeared << sums_of << barrier_energy << least_gap << n_pairs;
+    archive << has_appeared << sums_of << barrier_energy << least_gap << n_pairs
+            << force_of_springs;
   }
 
   void
   ObstacleTerm::load(boost::archive::binary_iarchive &archive)
   {
-    archive >> has_appeared >> sums_of >> barrier_energy >> least_gap >> n_pairs;
+    archive >> has_appeared >> sums_of >> barrier_energy >> least_gap >> n_pairs
+        >> force_of_springs;
   }
 
   std::size_t
@@ -507,6 +590,9 @@ namespace Exemplar
                         + rubbing.size() * sizeof(Rubbing) + start.memory_consumption();
     for (const Obstacle &obstacle : obstacles.all)
       bytes += obstacle.memory_consumption();
+    for (const KeptPairs &pairs : kept)
+      bytes += pairs.pairs.capacity() * sizeof(ContactPair)
+               + pairs.places.capacity() * sizeof(SpaceVector3);
     for (const auto &widths : obstacles.start_widths)
       bytes += widths.size() * 4 * sizeof(double);
     return bytes;

@@ -152,20 +152,62 @@ namespace Exemplar
     metric.add_example_forces(difference, more);
     add(free.forces, 1., more);
     metric.add_example_responses(difference, free.step);
+    add_correction(correction, more, free.step);
+    free.weight_changes = changes;
+    return true;
+  }
+
+  void
+  ContactModel::add_correction(const LbfgsCorrection     &correction,
+                               const std::vector<double> &forces,
+                               std::vector<double>       &step) const
+  {
     const std::size_t   k = correction.columns.size();
     std::vector<double> along(k);
     for (std::size_t i = 0; i < k; ++i)
-      along[i] = dot(more, *correction.columns[i]);
+      along[i] = dot(forces, *correction.columns[i]);
     potential.get_free_dofs().exchange().sum(along);
     for (std::size_t i = 0; i < k; ++i)
     {
       double factor = 0.;
       for (std::size_t j = 0; j < k; ++j)
         factor += correction.matrix(i, j) * along[j];
-      add(free.step, factor, *correction.columns[i]);
+      add(step, factor, *correction.columns[i]);
     }
-    free.weight_changes = changes;
-    return true;
+  }
+
+  void
+  ContactModel::find_free_step(const std::vector<double> &of_body, Direction &direction)
+  {
+    const auto apply     = [this](std::vector<double> &vector) { metric.apply(vector); };
+    direction.correction = lbfgs.correction(apply);
+    if (response.of_body.empty())
+    {
+      response.of_body = of_body;
+      apply(response.of_body);
+    }
+    else if (response.is_behind)
+    {
+      // the change of forces is that of the pair without the examples'
+      add(response.of_body, -1., lbfgs.newest_response());
+      metric.add_example_responses(response.weight_changes, response.of_body);
+    }
+    response.is_behind = false;
+    direction.step     = response.of_body;
+    metric.add_example_responses(direction.weight_changes, direction.step);
+    add_correction(*direction.correction, direction.forces, direction.step);
+  }
+
+  void
+  ContactModel::follow(const bool has_pair, const std::vector<double> &weight_changes)
+  {
+    if (!has_pair || response.is_behind)
+      forget_response();
+    else if (!response.of_body.empty())
+    {
+      response.weight_changes = weight_changes;
+      response.is_behind      = true;
+    }
   }
 
   double
@@ -215,12 +257,13 @@ namespace Exemplar
                      { return gaps[g].distance < gaps[g].width || gaps[g].friction > 0.; });
     if (!touches && !take_what_comes_near())
       return nullptr;
-    const LbfgsCorrection correction
-        = lbfgs.correction([this](std::vector<double> &vector) { metric.apply(vector); });
+    if (!direction.correction)
+      direction.correction
+          = lbfgs.correction([this](std::vector<double> &vector) { metric.apply(vector); });
     Touching touching;
     for (unsigned int round = 1;; ++round)
     {
-      touching = touch(GapEnergies(taken), weights, correction, direction);
+      touching = touch(GapEnergies(taken), weights, *direction.correction, direction);
       moved    = displacement(touching.step);
       if (round == max_rounds || !take_what_comes_near())
         break;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/dense.h>
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/solvers/contact_problem.h>
 
@@ -18,23 +17,16 @@ namespace Exemplar
       return result;
     }
 
-    /// S W S
-    dealii::FullMatrix<double>
-    between(const GapEnergies::Blocks &S, const dealii::FullMatrix<double> &W)
+    /// Overwrite b by the solution of A x = b for a positive definite matrix, which is overwritten, too. There are
+    /// hundreds of rows: BLAS is worth its while.
+    void
+    solve_by_blocks(dealii::LAPACKFullMatrix<double> &A, std::vector<double> &b)
     {
-      const std::size_t          m = W.m();
-      dealii::FullMatrix<double> result(m, m);
-      std::vector<double>        line(m), multiplied;
-      for (const bool is_second : { false, true })
-        for (std::size_t i = 0; i < m; ++i)
-        {
-          for (std::size_t j = 0; j < m; ++j)
-            line[j] = is_second ? result(j, i) : W(i, j);
-          S.multiply(line, multiplied);
-          for (std::size_t j = 0; j < m; ++j)
-            (is_second ? result(j, i) : result(i, j)) = multiplied[j];
-        }
-      return result;
+      dealii::Vector<double> solution(b.begin(), b.end());
+      A.set_property(dealii::LAPACKSupport::symmetric);
+      A.compute_cholesky_factorization();
+      A.solve(solution);
+      std::copy(solution.begin(), solution.end(), b.begin());
     }
 
     /// An iterate, and the derivative of the function along a step from another one to it.
@@ -81,15 +73,15 @@ namespace Exemplar
       ContactForces
       newton_step() const
       {
-        const GapEnergies::Blocks  S      = gaps.root_of_curvatures(at.changes);
-        dealii::FullMatrix<double> matrix = between(S, W);
+        const GapEnergies::Blocks        S      = gaps.root_of_curvatures(at.changes);
+        dealii::LAPACKFullMatrix<double> matrix = S.on_both_sides_of(W);
         for (std::size_t i = 0; i < matrix.m(); ++i)
           matrix(i, i) += 1.;
         std::vector<double> unscaled = product(W, slopes), scaled, forces;
         for (std::size_t i = 0; i < unscaled.size(); ++i)
           unscaled[i] = free[i] - at.changes[i] - unscaled[i];
         S.multiply(unscaled, scaled);
-        solve_by_cholesky(matrix, scaled);
+        solve_by_blocks(matrix, scaled);
         S.multiply(scaled, forces);
         ContactForces step;
         for (std::size_t i = 0; i < forces.size(); ++i)

@@ -198,6 +198,30 @@ namespace Exemplar
       }
   }
 
+  dealii::LAPACKFullMatrix<double>
+  GapEnergies::Blocks::on_both_sides_of(const dealii::FullMatrix<double> &matrix) const
+  {
+    const std::size_t                m = diagonal.size();
+    dealii::LAPACKFullMatrix<double> result(m, m);
+    std::vector<double>              sum(m), line;
+    for (std::size_t i = 0; i < m; ++i)
+    {
+      const auto add = [&](const double factor, const std::size_t row)
+      {
+        if (factor != 0.)
+          for (std::size_t j = 0; j < m; ++j)
+            sum[j] += factor * matrix(row, j);
+      };
+      std::fill(sum.begin(), sum.end(), 0.);
+      add(diagonal[i], i);
+      add(i > 0 ? beside_next[i - 1] : 0., i - 1);
+      add(beside_next[i], i + 1);
+      multiply(sum, line);
+      std::copy(line.begin(), line.end(), &result(0, i)); // symmetric, and stored by columns
+    }
+    return result;
+  }
+
   double
   GapEnergies::longest_part(const std::vector<double> &changes,
                             const std::vector<double> &further) const

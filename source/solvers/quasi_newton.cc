@@ -21,7 +21,9 @@ namespace Exemplar
     constexpr unsigned int max_changes            = 30; ///< of terms in a step
     constexpr unsigned int max_halvings           = 5;
     /// Of a change that the slope promises, where the model of gaps has none.
-    constexpr double min_promise           = 1e-3;
+    constexpr double min_promise = 1e-3;
+    /// Times what is enough for the step: from there on what terms have lagged follows each iteration.
+    constexpr double nearly_there          = 30.;
     constexpr double max_contraction       = 0.9;
     constexpr double min_error_over_length = 2.2;
 
@@ -243,22 +245,32 @@ namespace Exemplar
       metric.rotate_back(of_gaps);
       add(step, 1., of_gaps);
     }
-    metric.add_example_forces(changes, step);
     ContactModel::Direction direction;
+    const bool              touches = in_contact || !iteration.contact.empty();
+    std::vector<double>     of_body = touches ? step : std::vector<double>();
+    metric.add_example_forces(changes, step);
     if (contact.is_possible())
-      direction.forces = step;
-    lbfgs.before(step);
-    metric.apply(step);
-    lbfgs.after(step);
+    {
+      direction.forces         = step;
+      direction.weight_changes = std::move(changes);
+    }
+    if (touches)
+      contact.find_free_step(of_body, direction);
+    else
+    {
+      contact.forget_response();
+      lbfgs.before(step);
+      metric.apply(step);
+      lbfgs.after(step);
+      direction.step.swap(step);
+    }
     iteration.gaps.reset();
     if (contact.is_possible())
     {
-      direction.step           = std::move(step);
-      direction.weight_changes = std::move(changes);
       iteration.gaps = contact.add_contact(trial.positions, { weight_gradient, limits }, direction);
-      step           = std::move(direction.step);
       in_contact |= iteration.gaps != nullptr;
     }
+    step.swap(direction.step);
     iteration.direct = step;
     metric.rotate_forth(iteration.direct);
     return potential.get_free_dofs().exchange().sum(dot(iteration.direct, iteration.gradient));
@@ -334,7 +346,7 @@ namespace Exemplar
     for (std::size_t i = 0; i < old_weights.size(); ++i)
       old_weights[i] = trial.weights[i] - old_weights[i];
     metric.add_example_forces(old_weights, change);
-    lbfgs.add_pair(iteration.rotated, change);
+    contact.follow(lbfgs.add_pair(iteration.rotated, change), old_weights);
   }
 
   bool
@@ -353,11 +365,14 @@ namespace Exemplar
     iteration.last_length      = length;                                            // be luck
     iteration.last_contraction = contraction;
     // the sum of the steps that would follow if they went on shrinking like this
-    const bool is_near = length * max_or_nan(min_error_over_length, slower / (1. - slower))
-                         <= parameters.step_tolerance * max_displacement(exchange, accepted, trial);
+    const double error = length * max_or_nan(min_error_over_length, slower / (1. - slower)),
+                 moved = max_displacement(exchange, accepted, trial);
     // of a stiff body, or one that is carried far, small errors of positions are large ones of
     // forces
-    return is_near && report.residual <= parameters.step_tolerance;
+    const auto is_within = [&](const double tolerance)
+    { return error <= tolerance * moved && report.residual <= tolerance; };
+    iteration.is_nearly_there = is_within(nearly_there * parameters.step_tolerance);
+    return is_within(parameters.step_tolerance);
   }
 
   void
@@ -372,11 +387,14 @@ namespace Exemplar
     Iteration           &iteration    = memory.iteration;
     unsigned int         n_metrics = 0, n_with_metric = 0, n_changes = 0;
     iteration.last_length = iteration.last_contraction = 0.;
+    contact.forget_response();
     measure(trial, evaluation, iteration);
+    iteration.is_nearly_there = false;
     for (bool is_near = false;;)
     {
       const bool is_solved = is_near || has_met(parameters.tolerance, report);
-      if (potential.renew(trial, evaluation, is_solved) != TermChange::none)
+      if (potential.renew(trial, evaluation, is_solved || iteration.is_nearly_there)
+          != TermChange::none)
       {
         report_iteration(potential, evaluation, trial, report);
         measure(trial, evaluation, iteration);
@@ -404,7 +422,7 @@ namespace Exemplar
         measure(trial, evaluation, iteration);
         renew_metric(accepted, step_size, trial);
         n_with_metric = 0;
-        is_near       = false;
+        is_near = iteration.is_nearly_there = false;
         continue;
       }
       ++report.iterations;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Drops and shots of bodies at obstacles: no run may fail, and no frame may show the body inside.
+"""Drops and shots of bodies at obstacles: no run may fail, no frame may show the body inside, and none may gain energy.
 
     python3 tests/fuzz/drops.py --exemplar build/release/exemplar --runs 1000 --seed 1
 
@@ -9,6 +9,7 @@ a failure, with the scene's number, and counts at the end; --keep leaves the dir
 
 import argparse
 import concurrent.futures
+import csv
 import math
 import pathlib
 import random
@@ -23,6 +24,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "scenes"))
 from exemplar_runner import read_vtu
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+GAIN = 0.01
 
 
 class Body:
@@ -192,6 +194,18 @@ def scene(number, seed, directory, names):
     return name, keys, depth
 
 
+def gain(directory):
+    """By how much the total energy at the end is above that at the start, over the start's and what gravity has added."""
+    def total(row):
+        return sum(float(row.get("energy_" + kind, 0)) for kind in ("elastic", "example", "kinetic", "contact"))
+    file = directory / "statistics.csv"
+    rows = list(csv.DictReader(open(file))) if file.exists() else []
+    if len(rows) < 2:
+        return -math.inf
+    work = float(rows[-1]["work_gravity"]) - float(rows[0]["work_gravity"])
+    return (total(rows[-1]) - work - total(rows[0])) / (total(rows[0]) + max(0, work))
+
+
 def write(keys, file):
     lines = []
     for key, value in keys.items():
@@ -213,10 +227,11 @@ def run(number, arguments):
     deepest = -math.inf
     for positions, triangles in frames(directory / "out"):
         deepest = max(deepest, depth(positions, triangles))
-    bad = status != 0 or deepest > 0
+    gained = gain(directory / "out")
+    bad = status != 0 or deepest > 0 or gained > GAIN
     if not bad or not arguments.keep:
         shutil.rmtree(directory)
-    return number, name, status, deepest, text, directory
+    return number, name, status, deepest, gained, text, directory
 
 
 def main():
@@ -230,17 +245,19 @@ def main():
     parser.add_argument("--timeout", type=float, default=600)
     parser.add_argument("--directory", default=None, help="where scenes run")
     parser.add_argument("--keep", action="store_true")
+    parser.add_argument("--verbose", action="store_true", help="a line for each run")
     arguments = parser.parse_args()
-    counts = {}
+    counts, most = {}, -math.inf
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        for number, name, status, deepest, text, directory in pool.map(
+        for number, name, status, deepest, gained, text, directory in pool.map(
                 lambda n: run(n, arguments), range(arguments.first, arguments.first + arguments.runs)):
-            kind = "inside" if deepest > 0 else f"status {status}"
+            kind = "inside" if deepest > 0 else f"status {status}" if status != 0 or not gained > GAIN else "energy"
+            most = max(most, gained)
             counts[kind] = counts.get(kind, 0) + 1
-            if kind != "status 0":
-                print(f"{number}: {kind}, {name}, depth {deepest:.2e}: {text[-400:]} {directory if arguments.keep else ''}",
+            if arguments.verbose or kind != "status 0":
+                print(f"{number}: {kind}, {name}, depth {deepest:.2e}, gain {gained:.1e}: {text[-400:]} {directory if arguments.keep else ''}",
                       flush=True)
-    print(", ".join(f"{n} {kind}" for kind, n in sorted(counts.items())))
+    print(", ".join(f"{n} {kind}" for kind, n in sorted(counts.items())) + f"; greatest gain of energy {most:.1e}")
     return 0 if set(counts) <= {"status 0"} else 1
 
 

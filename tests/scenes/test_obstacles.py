@@ -159,6 +159,27 @@ class Frictional(ObstacleTest):
         self.assertAlmostEqual(tangential / normal, 0.2, delta=0.002)
 
 
+class Statics(ObstacleTest):
+    CUBE = {**CUBE, "Scene": "static", "Time/Step": None, "Time/End": None, "Time/Increments": "2", "Solver/Tolerance": "1e-10"}
+    WEIGHT = 1000 * 0.001 * G
+
+    def test_weak_springs_hold_what_a_floor_does_not(self):
+        last = read_csv(self.solve({**self.CUBE, "Obstacles/Free": "weak springs"}))[-1]
+        springs = last["weak_springs_z"]
+        self.assertAlmostEqual((last["contact_floor_z"] + springs) / self.WEIGHT, 1, places=8)
+        # 1e-6 E L times how far it has sunk, at most the width
+        self.assertLess(abs(springs), 1e-6 * 1e7 * 0.1 * sqrt(3) * 5e-3 * 0.1 * sqrt(3))
+
+    def test_friction_holds_a_body_on_a_slope(self):
+        for tan in (0, 0.1, 0.4):
+            cos = 1 / sqrt(1 + tan**2)
+            scene = {**self.CUBE, "Loads/Gravity": f"{-G * tan * cos}, 0, {-G * cos}", "Obstacles/Free": "friction",
+                     "Obstacles/floor/Friction": "0.5"}
+            last = read_csv(self.solve(scene, output=f"slope{tan}"))[-1]
+            self.assertAlmostEqual(last["contact_floor_z"] / (cos * self.WEIGHT), 1, delta=1e-5)
+            self.assertAlmostEqual(last["contact_floor_x"] / (cos * self.WEIGHT), tan, delta=1e-5)
+
+
 class Reproducible(ObstacleTest):
     SCENE = {**BAR, "Obstacles/floor/Friction": "0.5", "Obstacles/floor/Shape": SHAPES["sphere"], "Initial/Velocity": "1; 0; -2",
              "Time/End": "0.3", "Output/Every": "10"}
@@ -237,6 +258,8 @@ class Refused(BadInputTest):
         ({"Solver/Method": "fixed point"}, "nothing keeps it out"),
         ({"Output/Space error": "true"}, "Output/Space error"),
         ({"Loads/Balanced": "true"}, "Loads/Balanced"),
+        ({"Scene": "static", "Time/Step": None, "Time/End": None}, "Obstacles/Free = friction or weak springs"),
+        ({"Scene": "static", "Time/Step": None, "Time/End": None, "Obstacles/Free": "friction"}, "no obstacle has friction"),
         ({"Scene": "interpolation", "Loads/Gravity": None, "Time/Step": None, "Time/End": None,
           "Examples/Pose functions": "x; y; 2*z"}, "an interpolation follows"),
     )

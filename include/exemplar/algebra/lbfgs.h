@@ -37,9 +37,9 @@ namespace Exemplar
       pairs.clear();
     }
 
-    /// Append a pair if its curvature s.y is positive. Both are swapped for the memory of a pair
+    /// Append a pair if its curvature s.y is positive, and tell whether it is. Both are swapped for the memory of a pair
     /// that has left, so their values are lost.
-    void
+    bool
     add_pair(std::vector<double> &s, std::vector<double> &y);
 
     /// Memory in bytes.
@@ -86,6 +86,13 @@ namespace Exemplar
     /// B = [S, H0 Y], where `apply` overwrites a vector by H0 times it, the same one until clear().
     LbfgsCorrection
     correction(const std::function<void(std::vector<double> &)> &apply);
+
+    /// H0 times the change y of the newest pair, since correction().
+    const std::vector<double> &
+    newest_response() const
+    {
+      return pairs.back().inverse_y;
+    }
 
   private:
     /// A step s and the change y of the gradient along it.

@@ -42,12 +42,21 @@ namespace Exemplar
     absolute_shape(const std::string &shape, const std::filesystem::path &directory);
   };
 
+  /// What holds a static body's motions that no handle does.
+  enum class FreeBodies
+  {
+    refused,
+    friction,
+    weak_springs
+  };
+
   /// Section Obstacles.
   struct ObstaclesParameters
   {
     std::string                     distance      = "auto"; ///< d_hat [m]
     std::string                     slip_speed    = "auto"; ///< [m/s]
     double                          lag_tolerance = 1e-3;
+    FreeBodies                      free          = FreeBodies::refused;
     std::vector<ObstacleParameters> named;
 
     void

@@ -32,6 +32,8 @@ namespace Exemplar
     double                width;         ///< d_hat: from where they push [m]
     double                slip_speed;    ///< [m/s]
     double                lag_tolerance; ///< part of the greatest normal force
+    FreeBodies            free;          ///< what holds a static body
+    double                diameter;      ///< of the body [m]
     /// Widths of pairs that began nearer than `width`, of each obstacle [m].
     std::vector<std::unordered_map<PairKey, double>> start_widths;
   };

@@ -22,7 +22,7 @@ namespace Exemplar
   ContactGradient
   gradient_of(const Contact &contact);
 
-  /// Its second derivative [N/m], or without the curvature of the distance, which is never indefinite.
+  /// Its second derivative [N/m], or what is nearest to it of all that is not indefinite.
   ContactHessian
   hessian_of(const Contact &contact, Tangent kind);
 

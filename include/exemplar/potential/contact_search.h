@@ -57,10 +57,21 @@ namespace Exemplar
     BoxTree                   points, edges, triangles;
     AxisBox                   around; ///< all of it but half spaces, with its radius, in its axes
     unsigned int              version = 0; ///< of the obstacle, of which vertices and trees are
+    unsigned int              n_moves = 0; ///< of its vertices in its axes
   };
 
   /// The nodes' places in an obstacle's axes, by node; only those of the surface are set.
   using Places = std::vector<SpaceVector3>;
+
+  /// The pairs that were within reach when they were looked for last, in an order that mesh and obstacle decide. Until something has
+  /// moved by what `reach` is more than asked for, all that are asked for are among them.
+  struct KeptPairs
+  {
+    std::vector<ContactPair> pairs;
+    Places                   places;       ///< of the body's nodes then
+    double                   reach   = 0.; ///< [m]
+    unsigned int             n_moves = 0;  ///< of the obstacle's vertices until then
+  };
 
   /// The body's nodes of a pair, and their places in the obstacle's axes [m].
   struct PairCorners
@@ -98,12 +109,13 @@ namespace Exemplar
   class ContactSearch
   {
   public:
-    /// All must outlive it. `number` is the obstacle's.
+    /// All must outlive it. `number` is the obstacle's. Searches of the same obstacle and surface may share what is kept; null: nothing is.
     ContactSearch(const ContactSurface   &surface,
                   const Obstacles        &obstacles,
                   const StandingObstacle &standing,
-                  unsigned int            number)
-        : surface(surface), obstacles(obstacles), standing(standing), number(number)
+                  unsigned int            number,
+                  KeptPairs              *kept = nullptr)
+        : surface(surface), obstacles(obstacles), standing(standing), number(number), kept(kept)
     {
     }
 
@@ -160,6 +172,26 @@ namespace Exemplar
                      double        reach,
                      const Visit  &visit) const;
 
+    /// The same, without what is kept.
+    template <typename Visit>
+    void
+    search(const Places &places, const Places &ends, double reach, const Visit &visit) const;
+
+    /// Whether all of these are among the kept pairs, which may be found anew for that.
+    bool
+    keep(const Places &places, const Places &ends, double reach) const;
+
+    /// How far the surface's nodes are apart along an axis, at most [m].
+    double
+    farthest(const Places &places, const Places &others) const;
+
+    AxisBox
+    box_of_obstacle(const ContactPair &pair) const;
+
+    /// The distance of a pair with a half space [m].
+    double
+    height(const ContactPair &pair, const SpaceVector3 &place) const;
+
     Nearest
     nearest_of(const ContactPair &pair, const std::array<SpaceVector3, 3> &places) const;
 
@@ -179,6 +211,7 @@ namespace Exemplar
     const Obstacles        &obstacles;
     const StandingObstacle &standing;
     const unsigned int      number;
+    KeptPairs *const        kept;
   };
 
   template <typename Visit>
@@ -187,6 +220,32 @@ namespace Exemplar
                                   const Places &ends,
                                   const double  reach,
                                   const Visit  &visit) const
+  {
+    if (kept == nullptr || !keep(places, ends, reach))
+    {
+      search(places, ends, reach, visit);
+      return;
+    }
+    for (const ContactPair &pair : kept->pairs)
+    {
+      AxisBox           box;
+      const PairCorners x = corners(pair, places);
+      for (unsigned int i = 0; i < x.n; ++i)
+      {
+        box.add(x.places[i]);
+        box.add(ends[x.nodes[i]]);
+      }
+      if (box.widened(reach + standing.shape().radius).meets(box_of_obstacle(pair)))
+        visit(pair);
+    }
+  }
+
+  template <typename Visit>
+  void
+  ContactSearch::search(const Places &places,
+                        const Places &ends,
+                        const double  reach,
+                        const Visit  &visit) const
   {
     const ObstacleShape &shape  = standing.shape();
     const double         wide   = reach + shape.radius;

@@ -125,9 +125,10 @@ namespace Exemplar
     virtual std::vector<double>
     weight_linear_term(const Vector &positions, RotationUse rotations = RotationUse::keep) = 0;
 
-    /// A residual force [N] that is nothing but the rounding of the positions.
+    /// A residual force [N] that is nothing but the rounding of the positions. Their greatest coordinate is `size` [m], or
+    /// what it is at rest if that is more.
     virtual double
-    rounding_force() const = 0;
+    rounding_force(double size) const = 0;
 
     /// A derivative of the energy by a weight [J] that is nothing but the rounding of the positions.
     virtual double

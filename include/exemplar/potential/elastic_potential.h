@@ -42,6 +42,7 @@ namespace Exemplar
   /// What the rounding of positions makes of the forces and stresses of the cells.
   struct CellRounding
   {
+    double rest_size   = 0.; ///< the greatest coordinate at rest [m], for which the others are
     double force       = 0.; ///< greatest of a node [N]
     double stress_norm = 0.; ///< (sum V T^2)^(1/2)
   };
@@ -187,11 +188,7 @@ namespace Exemplar
     weight_linear_term(const Vector &positions, RotationUse rotations = RotationUse::keep) override;
 
     double
-    rounding_force() const override
-    {
-      // both strains that damping compares have rounding of their own, the decomposition's, too
-      return (1. + 8. * cells.get_damping().factor()) * rounding.force;
-    }
+    rounding_force(double size) const override;
 
     double
     rounding_weight_gradient() const override;

@@ -48,7 +48,7 @@ namespace Exemplar
                 std::vector<double> &columns) override;
 
     double
-    rounding_force() const override;
+    rounding_force(const Vector &positions) const override;
 
     void
     append_columns(double                                       energy,

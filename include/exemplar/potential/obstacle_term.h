@@ -2,8 +2,10 @@
 #ifndef exemplar_obstacle_term_h
 #define exemplar_obstacle_term_h
 
+#include <exemplar/body/time_integrator.h>
 #include <exemplar/potential/contact_forces.h>
 #include <exemplar/potential/potential_term.h>
+#include <exemplar/potential/weak_springs.h>
 
 #include <string>
 #include <vector>
@@ -23,10 +25,12 @@ namespace Exemplar
   class ObstacleTerm : public PotentialTerm
   {
   public:
-    /// All must outlive the term.
+    /// `integrator` is null unless the scene is dynamic. All must outlive the term.
     ObstacleTerm(const Obstacles      &obstacles,
                  const ContactSurface &surface,
-                 const Material       &material);
+                 const Material       &material,
+                 const Vector         &rest_positions,
+                 const TimeIntegrator *integrator);
 
     std::string
     name() const override
@@ -106,6 +110,9 @@ namespace Exemplar
     double
     max_step(const Vector &positions, const Vector &displacement) const override;
 
+    double
+    rounding_force(const Vector &positions) const override;
+
     void
     append_columns(double                                       energy,
                    std::vector<std::pair<std::string, double>> &columns) const override;
@@ -150,6 +157,9 @@ namespace Exemplar
       }
     };
 
+    ContactSearch
+    search(unsigned int obstacle) const;
+
     /// What an obstacle does at the nodes of a contact: call visit(obstacle, node, force on the body [N]).
     template <typename Visit>
     void
@@ -169,14 +179,22 @@ namespace Exemplar
     std::vector<Rubbing>
     rubbing_at(const Vector &positions) const;
 
-    /// The body's slip along the obstacle since the step has begun [m].
+    /// Where obstacles and body were, for slip().
+    void
+    remember_slip_base(const State &at);
+
+    /// The body's slip along the obstacle [m]: its velocity, as the time scheme has it, over the scheme's rate.
     SpaceVector3
     slip(const Rubbing &at, const Vector &positions) const;
+
+    /// Of a step with this end [J].
+    double
+    heat_of(const Rubbing &at, const Vector &positions) const;
 
     SlipEnergy
     slip_energy(const Rubbing &at) const
     {
-      return { at.coefficient * at.force, obstacles.slip_speed * step_size };
+      return { at.coefficient * at.force, obstacles.slip_speed / rate };
     }
 
     bool
@@ -190,22 +208,37 @@ namespace Exemplar
     const Material               &material;
     const bool                    have_friction;
     std::vector<StandingObstacle> standing;
-    std::vector<StandingObstacle> at_start; ///< of the step; empty without friction
-    std::vector<char>             there;    ///< whether each is there in this step
-    double                        time      = 0.;
-    double                        step_size = 0.;
-    bool                          in_step   = false;
-    Vector                        start;   ///< positions where the step begins
-    std::vector<Rubbing>          rubbing; ///< since the last renewal
-    unsigned int                  n_renewals = 0;
-    std::vector<Sums>             sums_of; ///< of this process
-    std::vector<char>       has_appeared;  ///< of those with From, whether they have been there
-    double                  barrier_energy = 0.; ///< where a step ended
-    double                  least_gap;
-    double                  n_pairs = 0.;
-    std::vector<double>     node_areas;          ///< of the whole body, by node [m^2]
-    const SymmetricPattern *pattern   = nullptr; ///< since attach()
-    const FreeDofs         *free_dofs = nullptr; ///< since attach()
+    const TimeIntegrator         *integrator;
+
+    /// Where the obstacles were, in the formula of the time scheme.
+    struct Earlier
+    {
+      double                        weight;
+      std::vector<StandingObstacle> standing;
+    };
+
+    std::vector<Earlier>       earlier;   ///< empty without friction
+    Vector                     slip_base; ///< of the body: x_star of the time scheme
+    double                     rate = 0.; ///< gamma of the time scheme, or one over the step [1/s]
+    std::vector<char>          there;     ///< whether each is there in this step
+    double                     time      = 0.;
+    double                     step_size = 0.;
+    bool                       in_step   = false;
+    Vector                     start; ///< positions where the step begins
+    std::optional<WeakSprings> springs;
+    std::vector<Rubbing>       rubbing; ///< since the last renewal
+    unsigned int               n_renewals   = 0;
+    bool                       is_beginning = false; ///< of a step: no renewal yet
+    std::vector<Sums>          sums_of;              ///< of this process
+    std::vector<char>          has_appeared; ///< of those with From, whether they have been there
+    mutable std::vector<KeptPairs> kept;     ///< of each obstacle; no result depends on it
+    double                         barrier_energy = 0.; ///< where a step ended
+    double                         least_gap;
+    double                         n_pairs = 0.;
+    SpaceVector3                   force_of_springs;    ///< where a step ended, of this process [N]
+    std::vector<double>            node_areas;          ///< of the whole body, by node [m^2]
+    const SymmetricPattern        *pattern   = nullptr; ///< since attach()
+    const FreeDofs                *free_dofs = nullptr; ///< since attach()
   };
 } // namespace Exemplar
 

@@ -213,9 +213,9 @@ namespace Exemplar
       return false;
     }
 
-    /// A residual force [N] that is nothing but rounding.
+    /// A residual force [N] at these positions that is nothing but rounding.
     virtual double
-    rounding_force() const
+    rounding_force(const Vector & /*positions*/) const
     {
       return 0.;
     }

@@ -9,6 +9,7 @@
 #include <exemplar/solvers/rotated_metric.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace Exemplar
@@ -40,7 +41,23 @@ namespace Exemplar
           forces; ///< on the body, without contact, with those of the weights' changes
       std::vector<double> step; ///< what they lead to without contact; then the direction
       std::vector<double> weight_changes;
+      std::optional<LbfgsCorrection> correction; ///< if it is known
     };
+
+    /// Find the step without contact of a body that touches, from its forces, and those on it without the examples' changes.
+    void
+    find_free_step(const std::vector<double> &of_body, Direction &direction);
+
+    /// L-BFGS has got the pair of the last direction, or not. Its step changed the weights by this much.
+    void
+    follow(bool has_pair, const std::vector<double> &weight_changes);
+
+    /// Another step begins, or what follows does not go on from the last direction.
+    void
+    forget_response()
+    {
+      response = {};
+    }
 
     /// What the weights' quadratic program starts from.
     struct WeightsThere
@@ -69,6 +86,7 @@ namespace Exemplar
     forget()
     {
       columns.clear();
+      forget_response();
     }
 
     /// In bytes.
@@ -86,6 +104,12 @@ namespace Exemplar
     /// Forces of rows by unknown, in the frame of the metric.
     std::vector<double>
     forces_of(const GapEnergies &gaps, const std::vector<double> &by_row) const;
+
+    /// Add what L-BFGS makes of forces to what the metric alone does.
+    void
+    add_correction(const LbfgsCorrection     &correction,
+                   const std::vector<double> &forces,
+                   std::vector<double>       &step) const;
 
     /// H times forces.
     std::vector<double>
@@ -119,6 +143,17 @@ namespace Exemplar
     RotatedMetric              &metric;
     Lbfgs                      &lbfgs;
     ContactColumns              columns;
+
+    /// What the metric alone makes of the body's forces without the examples' changes. From one iteration to the next it follows by
+    /// what L-BFGS needs of the last pair, too, so that an iteration takes one solve less.
+    struct Response
+    {
+      std::vector<double> of_body;           ///< empty: to be found
+      std::vector<double> weight_changes;    ///< of the pair that is not in it yet
+      bool                is_behind = false; ///< by that pair
+    };
+
+    Response response;
   };
 } // namespace Exemplar
 

@@ -5,6 +5,9 @@
 #include <exemplar/algebra/vector.h>
 #include <exemplar/potential/gap.h>
 
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <vector>
 
 namespace Exemplar
@@ -74,6 +77,10 @@ namespace Exemplar
     public:
       void
       multiply(const std::vector<double> &vector, std::vector<double> &product) const;
+
+      /// This matrix times a symmetric one times this matrix.
+      dealii::LAPACKFullMatrix<double>
+      on_both_sides_of(const dealii::FullMatrix<double> &matrix) const;
 
     private:
       friend class GapEnergies;

@@ -84,6 +84,7 @@ namespace Exemplar
       std::unique_ptr<ContactModel::AlongDirection> gaps; ///< along it; null where none matters
       double                                        last_length      = 0.;
       double                                        last_contraction = 0.;
+      bool is_nearly_there = false; ///< has_arrived() but for a larger tolerance
     };
 
     /// Vectors of a step, which stay from one step to the next for their memory alone.

@@ -180,6 +180,9 @@ namespace Exemplar
   {
     if (parameters.scene != SceneKind::statics)
       return;
+    const bool has_obstacles = !parameters.obstacles.empty();
+    if (has_obstacles && parameters.obstacles.free != FreeBodies::refused)
+      return;
     const unsigned int n_free
         = n_free_rigid_motions(body.mesh, body.fe_space.rest_positions(), held);
     std::string single_nodes;
@@ -189,7 +192,10 @@ namespace Exemplar
       throw UserError(fmt::format(
           "{}: the handles leave {} of 6 rigid motions free, so a static scene has no unique "
           "equilibrium.{}{} a subsection of Handles that holds three nodes not on a line (a box, a "
-          "sphere or a boundary), or hold more Components.",
-          parameters.name, n_free, single_nodes, single_nodes.empty() ? " Add" : " Or add"));
+          "sphere or a boundary), or hold more Components.{}",
+          parameters.name, n_free, single_nodes, single_nodes.empty() ? " Add" : " Or add",
+          has_obstacles ? " Or let obstacles hold the body, with Obstacles/Free = friction or weak "
+                          "springs."
+                        : ""));
   }
 } // namespace Exemplar

@@ -190,7 +190,9 @@ namespace Exemplar
     if (loads != nullptr)
       terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space));
     if (obstacles != nullptr)
-      terms.push_back(std::make_unique<ObstacleTerm>(*obstacles, *contact_surface, body.material));
+      terms.push_back(std::make_unique<ObstacleTerm>(
+          *obstacles, *contact_surface, body.material, body.fe_space.rest_positions(),
+          mass != nullptr ? integrator_of_terms : nullptr));
     if (!initial_stresses.empty())
       terms.push_back(std::make_unique<InitialStressTerm>(cells, body.fe_space, initial_stresses));
     return terms;

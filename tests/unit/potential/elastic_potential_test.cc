@@ -95,6 +95,18 @@ namespace Exemplar::Testing
       }
     };
 
+    TEST_P(ElasticPotentialTest, RoundingGrowsWithTheWayFromTheOrigin)
+    {
+      const ParametricBody body;
+      const auto           examples = body.examples(two_examples());
+      const FreeDofs       free_dofs(body.fe_space.n_dofs(), {}, Exchange::serial());
+      const BodyPotential  elastic(body, frozen_model(), examples, free_dofs);
+      const double         own = elastic.rounding_force(0.);
+      EXPECT_GT(own, 0.);
+      EXPECT_EQ(elastic.rounding_force(4.), own); // as far as it reaches at rest
+      EXPECT_DOUBLE_EQ(elastic.rounding_force(40.), 10. * own);
+    }
+
     // The frozen energy is quadratic in (x, w), so central differences are exact.
     TEST_P(ElasticPotentialTest, GradientsAreThoseOfTheFrozenEnergy)
     {

@@ -89,7 +89,7 @@ namespace Exemplar::Testing
       }
 
       double
-      rounding_force() const override
+      rounding_force(const Vector & /*positions*/) const override
       {
         return 1e3;
       }

@@ -149,6 +149,61 @@ namespace Exemplar::Testing
     }
   }
 
+  TEST(ObstacleTerm, TheConvexTangentIsAboveTheExactOne)
+  {
+    // so that a step with it is never longer than what the curvature of distances allows: far below
+    // the width that curvature is the greater part
+    std::mt19937                     generator(3);
+    std::normal_distribution<double> normal;
+    for (const std::string &shape : shapes)
+    {
+      SCOPED_TRACE(shape);
+      const Above  above(shape);
+      const auto   all     = above.term->contacts(above.lowered(0.15, 2));
+      unsigned int n_above = 0;
+      for (const Contact &contact : all)
+      {
+        const ContactHessian exact  = hessian_of(contact, Tangent::exact),
+                             convex = hessian_of(contact, Tangent::convex);
+        const unsigned int n        = contact.gap.n_nodes;
+        for (unsigned int sample = 0; sample < 20; ++sample)
+        {
+          std::array<SpaceVector3, 3> v;
+          double                      of_exact = 0., of_convex = 0., size = 0.;
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int c = 0; c < 3; ++c)
+              v[i][c] = normal(generator);
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = 0; j < n; ++j)
+            {
+              of_exact += v[i] * (exact[i][j] * v[j]);
+              of_convex += v[i] * (convex[i][j] * v[j]);
+              size += exact[i][j].norm();
+            }
+          EXPECT_GE(of_convex, std::max(0., of_exact) - 1e-12 * size);
+          n_above += of_convex > of_exact + 1e-12 * size;
+        }
+      }
+      EXPECT_EQ(n_above > 0, !all[0].at.is_flat);
+    }
+  }
+
+  TEST(ObstacleTerm, RoundingOfDistancesIsKnown)
+  {
+    // of a node at a distance d, k/w * O(1) times the rounding of both points
+    const Above above("plane 0 0 -0.7 0 0 1");
+    Vector      x = above.problem.state.positions;
+    EXPECT_EQ(above.term->rounding_force(x), 0.);
+    for (unsigned int dof = 2; dof < x.size(); dof += 3)
+      x[dof] -= 0.1;
+    const double own  = above.term->rounding_force(x);
+    double       most = 0.;
+    for (const Contact &contact : above.term->contacts(x))
+      most = std::max(most, contact.gap.stiffness / contact.gap.width);
+    EXPECT_GT(own, most * 1e-16);
+    EXPECT_LT(own, most * 1e-13);
+  }
+
   TEST(ObstacleTerm, ForcesHaveNoTorqueAboutTheObstacle)
   {
     // the body's forces on a sphere go through its middle
@@ -165,6 +220,42 @@ namespace Exemplar::Testing
       const SpaceVector3 arm = point - dealii::Point<3>(2.1, 0.1, -1.45);
       EXPECT_NEAR(dealii::cross_product_3d(arm, contact.gap.normal).norm(), 0., 1e-12);
       EXPECT_NEAR(arm.norm() - 0.7, contact.gap.distance, 1e-12);
+    }
+  }
+
+  TEST(ObstacleTerm, FrictionIsThatOfTheVelocityOfTheScheme)
+  {
+    // by BDF2 the body stands still where it ends a third of the last step farther
+    for (const std::string scheme : { "implicit euler", "bdf2" })
+    {
+      const Above above("plane 0 0 -0.9 0 0 1", { "Time/Scheme=" + scheme });
+      State       state = above.problem.state;
+      for (unsigned int dof = 2; dof < state.positions.size(); dof += 3)
+        state.positions[dof] -= 0.3;
+      Vector still              = state.positions;
+      state.previous_positions  = state.positions;
+      state.previous_velocities = state.velocities;
+      state.previous_step       = 0.02;
+      for (unsigned int dof = 0; dof < still.size(); dof += 3)
+      {
+        state.previous_positions[dof] -= 0.3;
+        still[dof] += scheme == "bdf2" ? 0.1 : 0.;
+      }
+      above.problem.potential.begin_step(state, 0.02);
+      const auto along = [&](const Vector &x)
+      {
+        const ElasticSums sums = above.sums(x);
+        double            most = 0.;
+        for (unsigned int dof = 0; dof < x.size(); dof += 3)
+          most = std::max(most, std::abs(sums->gradient[dof]));
+        return most;
+      };
+      EXPECT_NEAR(along(still), 0., 1e-6);
+      Vector moved = still;
+      for (unsigned int dof = 0; dof < still.size(); dof += 3)
+        moved[dof] += 1e-3;
+      EXPECT_GT(along(moved), 1.);
+      above.problem.potential.leave_step(state);
     }
   }
 
@@ -194,6 +285,21 @@ namespace Exemplar::Testing
       EXPECT_LE(least(part), 0.35 * least(0.));
       way *= -1.;
       EXPECT_GE(above.term->max_step(x, way), shape.compare(0, 6, "inside") == 0 ? 0.5 : 1.);
+    }
+  }
+
+  TEST(ObstacleTerm, AWayThatEndsAtTheObstacleIsBound)
+  {
+    // boxes of what ends as far as that may not meet, by rounding
+    for (const double length : { 0.249, 0.25 - 1e-9, 0.25, 0.25 + 1e-15 })
+    {
+      const Above above("sphere 2.1 0.1 -1.45 0.7");
+      Vector      way(above.problem.state.positions.size());
+      for (unsigned int dof = 2; dof < way.size(); dof += 3)
+        way[dof] = -length;
+      const double part = above.term->max_step(above.problem.state.positions, way);
+      EXPECT_GT(part, 0.85);
+      EXPECT_LT(part, 0.95);
     }
   }
 

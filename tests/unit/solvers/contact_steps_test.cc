@@ -222,6 +222,28 @@ namespace Exemplar::Testing
       EXPECT_NE(lies.problem.system.bordered().matrix_values(), metric_of(flies.problem));
     }
 
+    TEST(ContactSteps, ABarThatTurnsAndHitsASphereIsSolved)
+    {
+      // in a step it would go a third of its length and turn by 20 degrees: a triangle that slides and tilts comes nearer
+      // to a point than its normal tells
+      const std::string thrown = "-25.9-25.6*z-4.55*y; 4.02+4.55*(x-0.4)+26.5*z; "
+                                 "-5.16-26.5*y+25.6*(x-0.4)";
+      Scene scene("set Scene = dynamic\nsubsection Mesh\n set Generator = box\n set Box size = "
+                  "0.8, 0.2, 0.2\n set Box cells = 4, 1, 1\nend\nsubsection Material\n set Young's "
+                  "modulus = 9.84e6\n set Poisson's ratio = 0.4\nend\nsubsection Initial\n set "
+                  "Velocity = "
+                  + thrown
+                  + "\nend\nsubsection Time\n set Step = 0.01025\n set End = 0.04\nend\nsubsection "
+                    "Obstacles\n set Names = ball\n subsection ball\n set Shape = sphere -0.248 "
+                    "0.101 -0.129 0.234\n set Friction = 0.5\n end\nend\n");
+      for (unsigned int step = 0; step < 3; ++step)
+      {
+        const SolveReport report = scene.problem.advance();
+        EXPECT_EQ(report.status, SolveStatus::converged);
+        EXPECT_LT(report.iterations, 400u);
+      }
+    }
+
     TEST(ContactSteps, AResumedRunGoesOnInTheSameBytes)
     {
       const std::string text  = thrown_bar("1; 0; -3+2*(x-2)", 1e6, 0.005);
