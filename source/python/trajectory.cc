@@ -189,9 +189,10 @@ namespace Exemplar::Python
       {
         result["mass_damping"]       = *found.mass_damping;
         result["stiffness_damping"]  = *found.stiffness_damping;
-        result["initial_positions"]  = array_of_nodes(std::move(*found.initial_positions));
         result["initial_velocities"] = array_of_nodes(std::move(*found.initial_velocities));
       }
+      if (found.initial_positions)
+        result["initial_positions"] = array_of_nodes(std::move(*found.initial_positions));
       py::list weak;
       for (const auto &[step, weight] : found.weakly_active)
         weak.append(py::make_tuple(step, weight));

@@ -2,7 +2,7 @@
 #ifndef exemplar_obstacle_term_h
 #define exemplar_obstacle_term_h
 
-#include <exemplar/potential/contact_forces.h>
+#include <exemplar/potential/contact_slopes.h>
 #include <exemplar/potential/potential_term.h>
 
 #include <string>
@@ -134,6 +134,37 @@ namespace Exemplar
     std::vector<Contact>
     contacts(const Vector &positions, double range = 1.) const;
 
+    /// What of the term belongs to the step that has begun.
+    struct Step
+    {
+      double                        size    = 0.; ///< [s]
+      bool                          has_begun = false; ///< and has not been left
+      Vector                        start;    ///< positions where it begins
+      std::vector<char>             there;    ///< whether each obstacle is there; empty: all are
+      std::vector<StandingObstacle> at_start; ///< empty without friction
+      std::vector<Rubbing>          rubbing;  ///< since the last renewal
+      unsigned int                  n_renewals = 0;
+    };
+
+    const Step &
+    get_step() const
+    {
+      return step;
+    }
+
+    /// Return to a step that was left for others.
+    void
+    set_step(Step former)
+    {
+      step = std::move(former);
+    }
+
+    /// Derivatives of the slope along a displacement, of barriers and of friction whose forces are those at these
+    /// positions, in a mesh with this space. Set_time() must have told the time, and begin_step() the start where there
+    /// is friction.
+    ObstacleSlopes
+    slopes(const Vector &positions, const Vector &along, const FESpace &fe_space) const;
+
   private:
     /// What an obstacle has done at the end of a step, and since the beginning.
     struct Sums
@@ -165,24 +196,43 @@ namespace Exemplar
     void
     follow_times(const State &at);
 
+    /// What rubs at a contact, if anything does.
+    std::optional<Rubbing>
+    rubbing_of(const Contact &contact) const;
+
     /// What would rub at these positions.
     std::vector<Rubbing>
     rubbing_at(const Vector &positions) const;
 
-    /// The body's slip along the obstacle since the step has begun [m].
+    /// How the body has moved beside the obstacle since the step has begun [m].
+    SpaceVector3
+    motion_along(const Rubbing &at, const Vector &positions) const;
+
+    /// Its slip, the part of that along the obstacle [m].
     SpaceVector3
     slip(const Rubbing &at, const Vector &positions) const;
 
     SlipEnergy
     slip_energy(const Rubbing &at) const
     {
-      return { at.coefficient * at.force, obstacles.slip_speed * step_size };
+      return { at.coefficient * at.force, obstacles.slip_speed * step.size };
     }
+
+    /// The motion of a contact that rubs.
+    ContactMotion
+    motion_of(const Rubbing &at, const Vector &positions) const;
+
+    /// Add the derivatives by what makes the stiffness and the width of a contact.
+    void
+    add_origins(const Contact      &contact,
+                const ContactSlope &slope,
+                ShareDerivatives   &by_shares,
+                ObstacleSlopes     &sums) const;
 
     bool
     is_there(const unsigned int obstacle) const
     {
-      return there.empty() || there[obstacle] != 0;
+      return step.there.empty() || step.there[obstacle] != 0;
     }
 
     const Obstacles              &obstacles;
@@ -190,14 +240,8 @@ namespace Exemplar
     const Material               &material;
     const bool                    have_friction;
     std::vector<StandingObstacle> standing;
-    std::vector<StandingObstacle> at_start; ///< of the step; empty without friction
-    std::vector<char>             there;    ///< whether each is there in this step
-    double                        time      = 0.;
-    double                        step_size = 0.;
-    bool                          in_step   = false;
-    Vector                        start;   ///< positions where the step begins
-    std::vector<Rubbing>          rubbing; ///< since the last renewal
-    unsigned int                  n_renewals = 0;
+    Step                          step;
+    double                        time = 0.;
     std::vector<Sums>             sums_of; ///< of this process
     std::vector<char>       has_appeared;  ///< of those with From, whether they have been there
     double                  barrier_energy = 0.; ///< where a step ended

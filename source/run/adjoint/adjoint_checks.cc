@@ -93,6 +93,12 @@ namespace Exemplar
     return false;
   }
 
+  bool
+  has_friction(const Problem &problem)
+  {
+    return problem.actions.obstacles != nullptr && problem.actions.obstacles->have_friction();
+  }
+
   void
   require_known_scene(const Problem &problem)
   {
@@ -101,6 +107,9 @@ namespace Exemplar
              "Set Scene = static, or record the steps: with problem.record() as trajectory.");
     require_known_potential(problem);
     require_known_way(problem);
+    if (has_friction(problem))
+      refuse("of single equilibria with friction, as that depends on where the body has slipped from",
+             "Record the steps: with problem.record() as trajectory.");
   }
 
   void
@@ -162,7 +171,8 @@ namespace Exemplar
     if (!(value <= bound))
       throw UserError(fmt::format("vjp: step {}, counted from 0, ends in no equilibrium of its "
                                   "forces (residual {:.2g}, allowed {:.2g}). Lower "
-                                  "Solver/Step tolerance, or Tolerance.",
-                                  step, value, bound));
+                                  "Solver/Step tolerance, or Tolerance{}.",
+                                  step, value, bound,
+                                  has_friction(problem) ? ", or Obstacles/Lag tolerance" : ""));
   }
 } // namespace Exemplar
