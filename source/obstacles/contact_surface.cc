@@ -115,7 +115,8 @@ namespace Exemplar
   ContactSurface::node_of(const Triangle &triangle, const unsigned int k) const
   {
     return std::lower_bound(nodes.begin(), nodes.end(), triangle.nodes[k],
-                            [](const Node &node, const unsigned int key) { return node.node < key; })
+                            [](const Node &node, const unsigned int key)
+                            { return node.node < key; })
            - nodes.begin();
   }
 
@@ -143,12 +144,14 @@ namespace Exemplar
       const Triangle &triangle = triangles[t];
       double          by_share = by_shares.triangles[t];
       for (unsigned int k = 0; k < 3; ++k)
-        by_share += (by_shares.edges[edge_of(triangle, k)] + by_shares.nodes[node_of(triangle, k)]) / 3.;
+        by_share
+            += (by_shares.edges[edge_of(triangle, k)] + by_shares.nodes[node_of(triangle, k)]) / 3.;
       if (by_share == 0.)
         continue;
       by_young[triangle.cell] += by_share * triangle.area;
       const double by_area = by_share * material.youngs_modulus(triangle.cell);
-      const auto   x = [&](const unsigned int k) { return fe_space.rest_position(triangle.nodes[k % 3]); };
+      const auto   x
+          = [&](const unsigned int k) { return fe_space.rest_position(triangle.nodes[k % 3]); };
       const dealii::Tensor<1, 3> n = dealii::cross_product_3d(x(1) - x(0), x(2) - x(0));
       // the area is half of |n|, and a corner moves it along the height over the opposite edge
       for (unsigned int k = 0; k < 3; ++k)

@@ -76,7 +76,7 @@ namespace Exemplar
       const unsigned n      = contact.gap.n_nodes;
       if (contact.at.is_flat || length == 0.)
         return result;
-      const dealii::Tensor<2, 2> inverse = inverse_of_free(at);
+      const dealii::Tensor<2, 2>                 inverse = inverse_of_free(at);
       std::array<std::array<SpaceVector3, 2>, 3> mixed; // d^2 (v^2/2) / dx dtheta
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int k = 0; k < at.n_free; ++k)

@@ -92,9 +92,9 @@ namespace Exemplar
       if (contact.at.is_flat)
         return;
       // the normal is that of the way, which the free parameters change, too
-      const SpaceVector3          by_way  = tangential(by.normal, gap.normal) / at.way.norm();
-      const dealii::Tensor<2, 2>  inverse = inverse_of_free(at);
-      dealii::Tensor<1, 2>        by_free;
+      const SpaceVector3         by_way  = tangential(by.normal, gap.normal) / at.way.norm();
+      const dealii::Tensor<2, 2> inverse = inverse_of_free(at);
+      dealii::Tensor<1, 2>       by_free;
       for (unsigned int k = 0; k < at.n_free; ++k)
       {
         by_free[k] = at.dv[k] * by_way;
@@ -120,7 +120,7 @@ namespace Exemplar
                         ContactSlope          &slope)
   {
     const Gap          &gap = contact.gap;
-    const SpaceVector3 &n   = gap.normal, &z = motion.slip;
+    const SpaceVector3 &n = gap.normal, &z = motion.slip;
     const SpaceVector3  u = tangential(z, n), a = sum(gap, along);
     const double        per_slip = energy.force_by_slip(u.norm());
     const double        value    = per_slip * (u * a);
@@ -133,14 +133,14 @@ namespace Exemplar
     // the normal force is -m k b'(d)
     const double by_force
         = coefficient * SlipEnergy{ 1., energy.e }.force_by_slip(u.norm()) * (u * a);
-    ByContact    by;
+    ByContact by;
     by.distance = -by_force * contact.m * k * unit.curvature(d) - by_point * n;
     by.m        = -by_force * k * unit.slope(d);
     by.normal   = -(n * z) * by_u - (n * by_u) * z - d * by_point;
     for (unsigned int i = 0; i < gap.n_nodes; ++i)
     {
-      by.coefficients[i] = per_slip * (u * along[i]) + by_slip * motion.ways[i]
-                           + by_point * motion.places[i];
+      by.coefficients[i]
+          = per_slip * (u * along[i]) + by_slip * motion.ways[i] + by_point * motion.places[i];
       slope.by_positions[i] += gap.coefficients[i] * (by_slip + by_point);
       slope.by_start[i] -= gap.coefficients[i] * by_slip;
     }

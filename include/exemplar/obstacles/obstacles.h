@@ -19,7 +19,7 @@ namespace Exemplar
   {
     double                width;  ///< [m]
     std::array<double, 3> shares; ///< of the body's nodes of the pair
-    SpaceVector3          normal; ///< the width's gradient by a node's first place is its share of this
+    SpaceVector3 normal; ///< the width's gradient by a node's first place is its share of this
   };
 
   /// The obstacles of a scene.

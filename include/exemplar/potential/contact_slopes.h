@@ -15,11 +15,11 @@ namespace Exemplar
   struct ContactSlope
   {
     ContactGradient by_positions{};
-    ContactGradient by_start{};          ///< by the nodes' positions where the step has begun
-    double          by_stiffness   = 0.; ///< by the full k
-    double          by_width       = 0.;
-    double          by_distance    = 0.; ///< at fixed nearest points: what a radius takes off
-    double          by_square      = 0.; ///< by the logarithm of the square of the body's edge at rest
+    ContactGradient by_start{};        ///< by the nodes' positions where the step has begun
+    double          by_stiffness = 0.; ///< by the full k
+    double          by_width     = 0.;
+    double          by_distance  = 0.; ///< at fixed nearest points: what a radius takes off
+    double          by_square = 0.; ///< by the logarithm of the square of the body's edge at rest
     double          by_coefficient = 0.; ///< of friction
   };
 
@@ -56,11 +56,11 @@ namespace Exemplar
       double       by_radius = 0., by_coefficient = 0.;
     };
 
-    Vector              by_positions;
-    Vector              by_start;           ///< by the positions where the step has begun; empty without friction
-    std::vector<double> by_young;           ///< by cell
-    Vector              by_rest_positions;  ///< those in the middles of edges are numbers of their own
-    Vector              by_first_positions; ///< by those from which pairs have widths of their own
+    Vector by_positions;
+    Vector by_start; ///< by the positions where the step has begun; empty without friction
+    std::vector<double> by_young; ///< by cell
+    Vector by_rest_positions;     ///< those in the middles of edges are numbers of their own
+    Vector by_first_positions;    ///< by those from which pairs have widths of their own
     std::vector<OfObstacle> of_obstacles;
   };
 } // namespace Exemplar

@@ -137,9 +137,9 @@ namespace Exemplar
     /// What of the term belongs to the step that has begun.
     struct Step
     {
-      double                        size    = 0.; ///< [s]
+      double                        size      = 0.;    ///< [s]
       bool                          has_begun = false; ///< and has not been left
-      Vector                        start;    ///< positions where it begins
+      Vector                        start;             ///< positions where it begins
       std::vector<char>             there;    ///< whether each obstacle is there; empty: all are
       std::vector<StandingObstacle> at_start; ///< empty without friction
       std::vector<Rubbing>          rubbing;  ///< since the last renewal

@@ -74,9 +74,9 @@ namespace Exemplar
     allowed_residual(const Problem &problem)
     {
       const double required = required_residual(problem.parameters.solver);
-      return has_friction(problem)
-                 ? std::max(1e-9, 10. * std::max(required, problem.actions.obstacles->lag_tolerance))
-                 : std::max(1e-6, 10. * required);
+      return has_friction(problem) ? std::max(
+                 1e-9, 10. * std::max(required, problem.actions.obstacles->lag_tolerance))
+                                   : std::max(1e-6, 10. * required);
     }
 
     /// Throws UserError, by name, for terms of the potential that derivatives_of_slope() does not
@@ -118,8 +118,9 @@ namespace Exemplar
     require_known_potential(problem);
     require_known_way(problem);
     if (has_friction(problem))
-      refuse("of single equilibria with friction, as that depends on where the body has slipped from",
-             "Record the steps: with problem.record() as trajectory.");
+      refuse(
+          "of single equilibria with friction, as that depends on where the body has slipped from",
+          "Record the steps: with problem.record() as trajectory.");
   }
 
   void

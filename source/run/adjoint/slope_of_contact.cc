@@ -46,7 +46,7 @@ namespace Exemplar
     if (term == nullptr)
       return;
     const FESpace &fe_space = problem.body.fe_space;
-    ObstacleSlopes slopes = term->slopes(problem.state.positions, direction.positions, fe_space);
+    ObstacleSlopes slopes   = term->slopes(problem.state.positions, direction.positions, fe_space);
     sums.by_positions += slopes.by_positions;
     for (std::size_t cell = 0; cell < slopes.by_young.size(); ++cell)
       sums.by_young[cell] += slopes.by_young[cell];
@@ -63,13 +63,13 @@ namespace Exemplar
   {
     if (problem.actions.obstacles == nullptr)
       return true;
-    const Obstacles &obstacles   = *problem.actions.obstacles;
-    const auto      &widths      = obstacles.start_widths;
-    const bool       is_set_back = std::any_of(obstacles.all.begin(), obstacles.all.end(),
-                                               [](const Obstacle &obstacle)
-                                               { return obstacle.was_set_back(); });
-    const bool       has_widths  = std::any_of(widths.begin(), widths.end(),
-                                               [](const auto &own) { return !own.empty(); });
+    const Obstacles &obstacles = *problem.actions.obstacles;
+    const auto      &widths    = obstacles.start_widths;
+    const bool       is_set_back
+        = std::any_of(obstacles.all.begin(), obstacles.all.end(),
+                      [](const Obstacle &obstacle) { return obstacle.was_set_back(); });
+    const bool has_widths
+        = std::any_of(widths.begin(), widths.end(), [](const auto &own) { return !own.empty(); });
     return !is_set_back && (!has_widths || problem.parameters.initial.pose_function.empty());
   }
 } // namespace Exemplar
