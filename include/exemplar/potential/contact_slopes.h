@@ -50,9 +50,10 @@ namespace Exemplar
   /// Derivatives of the slope of all obstacles along a displacement.
   struct ObstacleSlopes
   {
+    /// By what an obstacle is.
     struct OfObstacle
     {
-      SpaceVector3 by_place; ///< a displacement at all times, the start included
+      SpaceVector3 by_place; ///< by a displacement at all times, the start included
       double       by_radius = 0., by_coefficient = 0.;
     };
 
