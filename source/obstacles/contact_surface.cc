@@ -95,17 +95,77 @@ namespace Exemplar
       triangle.share = material.youngs_modulus(triangle.cell) * triangle.area;
       for (unsigned int k = 0; k < 3; ++k)
       {
-        const auto [i, j] = std::minmax(triangle.nodes[k], triangle.nodes[(k + 1) % 3]);
-        const std::array<unsigned int, 2> ends{ { i, j } };
-        std::lower_bound(edges.begin(), edges.end(), ends,
-                         [](const Edge &edge, const auto &key) { return edge.nodes < key; })
-            ->share
-            += triangle.share / 3.;
-        std::lower_bound(nodes.begin(), nodes.end(), triangle.nodes[k],
-                         [](const Node &node, const unsigned int key) { return node.node < key; })
-            ->share
-            += triangle.share / 3.;
+        edges[edge_of(triangle, k)].share += triangle.share / 3.;
+        nodes[node_of(triangle, k)].share += triangle.share / 3.;
       }
     }
+  }
+
+  unsigned int
+  ContactSurface::edge_of(const Triangle &triangle, const unsigned int k) const
+  {
+    const auto [i, j] = std::minmax(triangle.nodes[k], triangle.nodes[(k + 1) % 3]);
+    const std::array<unsigned int, 2> ends{ { i, j } };
+    return std::lower_bound(edges.begin(), edges.end(), ends,
+                            [](const Edge &edge, const auto &key) { return edge.nodes < key; })
+           - edges.begin();
+  }
+
+  unsigned int
+  ContactSurface::node_of(const Triangle &triangle, const unsigned int k) const
+  {
+    return std::lower_bound(nodes.begin(), nodes.end(), triangle.nodes[k],
+                            [](const Node &node, const unsigned int key)
+                            { return node.node < key; })
+           - nodes.begin();
+  }
+
+  ShareDerivatives
+  ContactSurface::no_derivatives() const
+  {
+    return { std::vector<double>(triangles.size()), std::vector<double>(edges.size()),
+             std::vector<double>(nodes.size()), std::vector<double>(edges.size()) };
+  }
+
+  void
+  ContactSurface::carry(const ShareDerivatives &by_shares,
+                        const Material         &material,
+                        const FESpace          &fe_space,
+                        std::vector<double>    &by_young,
+                        dealii::Vector<double> &by_rest_positions) const
+  {
+    const auto add = [&](const unsigned int node, const dealii::Tensor<1, 3> &derivative)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        by_rest_positions[3 * node + c] += derivative[c];
+    };
+    for (unsigned int t = 0; t < triangles.size(); ++t)
+    {
+      const Triangle &triangle = triangles[t];
+      double          by_share = by_shares.triangles[t];
+      for (unsigned int k = 0; k < 3; ++k)
+        by_share
+            += (by_shares.edges[edge_of(triangle, k)] + by_shares.nodes[node_of(triangle, k)]) / 3.;
+      if (by_share == 0.)
+        continue;
+      by_young[triangle.cell] += by_share * triangle.area;
+      const double by_area = by_share * material.youngs_modulus(triangle.cell);
+      const auto   x
+          = [&](const unsigned int k) { return fe_space.rest_position(triangle.nodes[k % 3]); };
+      const dealii::Tensor<1, 3> n = dealii::cross_product_3d(x(1) - x(0), x(2) - x(0));
+      // the area is half of |n|, and a corner moves it along the height over the opposite edge
+      for (unsigned int k = 0; k < 3; ++k)
+        add(triangle.nodes[k],
+            0.5 * by_area / n.norm() * dealii::cross_product_3d(n, x(k + 2) - x(k + 1)));
+    }
+    for (unsigned int e = 0; e < edges.size(); ++e)
+      if (by_shares.squares[e] != 0.)
+      {
+        const auto [i, j] = edges[e].nodes;
+        const dealii::Tensor<1, 3> by_end
+            = 2. * by_shares.squares[e] * (fe_space.rest_position(j) - fe_space.rest_position(i));
+        add(i, -by_end);
+        add(j, by_end);
+      }
   }
 } // namespace Exemplar

@@ -46,6 +46,28 @@ namespace Exemplar
     return result;
   }
 
+  dealii::Tensor<2, 2>
+  inverse_of_free(const Nearest &at)
+  {
+    dealii::Tensor<2, 2> inverse;
+    if (at.n_free == 2)
+    {
+      const double a = at.dv[0] * at.dv[0], b = at.dv[0] * at.dv[1], d = at.dv[1] * at.dv[1];
+      const double determinant = a * d - b * b;
+      if (determinant > 1e-14 * a * d)
+      {
+        inverse[0][0] = d / determinant;
+        inverse[1][1] = a / determinant;
+        inverse[0][1] = inverse[1][0] = -b / determinant;
+      }
+      else if (a > 0.)
+        inverse[0][0] = 1. / a;
+    }
+    else if (at.n_free == 1)
+      inverse[0][0] = 1. / (at.dv[0] * at.dv[0]);
+    return inverse;
+  }
+
   namespace
   {
     /// The second derivative of the distance: that of the least square over the free parameters, of which that of
@@ -59,23 +81,7 @@ namespace Exemplar
       const unsigned n      = contact.gap.n_nodes;
       if (contact.at.is_flat || length == 0.)
         return result;
-      // inverse of the Gram matrix of dv; parameters of parallel edges are one
-      dealii::Tensor<2, 2> inverse;
-      if (at.n_free == 2)
-      {
-        const double a = at.dv[0] * at.dv[0], b = at.dv[0] * at.dv[1], d = at.dv[1] * at.dv[1];
-        const double determinant = a * d - b * b;
-        if (determinant > 1e-14 * a * d)
-        {
-          inverse[0][0] = d / determinant;
-          inverse[1][1] = a / determinant;
-          inverse[0][1] = inverse[1][0] = -b / determinant;
-        }
-        else if (a > 0.)
-          inverse[0][0] = 1. / a;
-      }
-      else if (at.n_free == 1)
-        inverse[0][0] = 1. / (at.dv[0] * at.dv[0]);
+      const dealii::Tensor<2, 2>                 inverse = inverse_of_free(at);
       std::array<std::array<SpaceVector3, 2>, 3> mixed; // d^2 (v^2/2) / dx dtheta
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int k = 0; k < at.n_free; ++k)

@@ -8,9 +8,6 @@ namespace Exemplar
 {
   namespace
   {
-    /// c in k = c E A, doc/contact.md.
-    constexpr double stiffness_factor = 0.1;
-
     /// Edges are almost parallel where the square of sin of their angle, at rest lengths, is below this.
     constexpr double parallel = 1e-3;
 
@@ -234,11 +231,8 @@ namespace Exemplar
   double
   ContactSearch::width(const ContactPair &pair) const
   {
-    const auto &given = obstacles.start_widths[number];
-    if (given.empty())
-      return obstacles.width;
-    const auto width = given.find(pair.key());
-    return width == given.end() ? obstacles.width : width->second;
+    const StartWidth *own = obstacles.own_width(number, pair.key());
+    return own == nullptr ? obstacles.width : own->width;
   }
 
   Contact
@@ -275,7 +269,7 @@ namespace Exemplar
       share = surface.triangles[pair.of_body].share;
     else
       share = surface.nodes[pair.of_body].share;
-    result.full_stiffness = stiffness_factor * share;
+    result.full_stiffness = contact_stiffness_factor * share;
     result.at.normal      = R * at.normal;
     result.at.nearest.way = R * at.nearest.way;
     for (unsigned int k = 0; k < at.nearest.n_free; ++k)

@@ -92,7 +92,7 @@ namespace Exemplar
     for (const Contact &contact : contacts(positions, range))
       if (contact.gap.stiffness > 0.)
         gaps.push_back(contact.gap);
-    for (const Rubbing &at : rubbing)
+    for (const Rubbing &at : step.rubbing)
     {
       const SlipEnergy energy = slip_energy(at);
       Gap              gap    = at.gap;
@@ -145,13 +145,13 @@ namespace Exemplar
   ObstacleTerm::begin_step(const State &at, const double new_step_size)
   {
     move_to(at.time);
-    step_size = new_step_size;
-    start     = at.positions;
-    in_step   = true;
+    step.size      = new_step_size;
+    step.start     = at.positions;
+    step.has_begun = true;
     follow_times(at);
-    rubbing.clear();
-    n_renewals   = 0;
-    is_beginning = true;
+    step.rubbing.clear();
+    step.n_renewals   = 0;
+    step.is_beginning = true;
     if (springs)
       springs->begin_step(at.positions);
     if (have_friction)
@@ -161,18 +161,18 @@ namespace Exemplar
   void
   ObstacleTerm::remember_slip_base(const State &at)
   {
-    rate = integrator != nullptr ? integrator->rate_factor() : 1. / step_size;
+    step.rate = integrator != nullptr ? integrator->rate_factor() : 1. / step.size;
     const std::vector<WeightedPositions> history
         = integrator != nullptr ? integrator->history(at)
                                 : std::vector<WeightedPositions>{ { 1., &at.positions } };
-    slip_base.reinit(at.positions.size());
-    earlier.clear();
+    step.slip_base.reinit(at.positions.size());
+    step.earlier.clear();
     double time_then = at.time;
     for (const WeightedPositions &then : history)
     {
-      slip_base.add(then.weight, *then.positions);
-      earlier.push_back({ then.weight, standing });
-      for (StandingObstacle &obstacle : earlier.back().standing)
+      step.slip_base.add(then.weight, *then.positions);
+      step.earlier.push_back({ then.weight, standing });
+      for (StandingObstacle &obstacle : step.earlier.back().standing)
         obstacle.move_to(time_then);
       time_then -= at.previous_step;
     }
@@ -181,12 +181,12 @@ namespace Exemplar
   void
   ObstacleTerm::follow_times(const State &at)
   {
-    there.clear();
+    step.there.clear();
     for (unsigned int i = 0; i < standing.size(); ++i)
     {
       const Obstacle &obstacle = obstacles.all[i];
-      there.push_back(obstacle.is_there(at.time) ? 1 : 0);
-      if (!obstacle.appears() || there[i] == 0 || has_appeared[i] != 0)
+      step.there.push_back(obstacle.is_there(at.time) ? 1 : 0);
+      if (!obstacle.appears() || step.there[i] == 0 || has_appeared[i] != 0)
         continue;
       StandingObstacle now(obstacle);
       now.move_to(at.time);
@@ -201,37 +201,42 @@ namespace Exemplar
     }
   }
 
+  std::optional<Rubbing>
+  ObstacleTerm::rubbing_of(const Contact &contact) const
+  {
+    const Obstacle &obstacle = obstacles.all[contact.obstacle];
+    const Gap      &gap      = contact.gap;
+    if (obstacle.friction() == 0. || !(gap.distance > 0.) || gap.stiffness == 0.)
+      return {};
+    Rubbing at{ contact.obstacle,
+                contact.pair.key(),
+                gap,
+                -Barrier{ gap.stiffness, gap.width }.slope(gap.distance),
+                obstacle.friction(),
+                standing[contact.obstacle].pose.to_own(contact.of_obstacle),
+                {},
+                contact.at.nearest.b };
+    if (obstacle.deforms())
+    {
+      const ObstacleShape &shape = obstacle.shape();
+      const unsigned int   part  = contact.pair.of_obstacle;
+      if (contact.pair.kind == PairKind::node_triangle)
+        at.vertices = shape.triangles[part];
+      else if (contact.pair.kind == PairKind::edge_edge)
+        at.vertices = { { shape.edges[part][0], shape.edges[part][1], 0 } };
+      else
+        at.vertices = { { shape.points[part], 0, 0 } };
+    }
+    return at;
+  }
+
   std::vector<Rubbing>
   ObstacleTerm::rubbing_at(const Vector &positions) const
   {
     std::vector<Rubbing> result;
     for (const Contact &contact : contacts(positions))
-    {
-      const Obstacle &obstacle = obstacles.all[contact.obstacle];
-      const Gap      &gap      = contact.gap;
-      if (obstacle.friction() == 0. || !(gap.distance > 0.) || gap.stiffness == 0.)
-        continue;
-      Rubbing at{ contact.obstacle,
-                  contact.pair.key(),
-                  gap,
-                  -Barrier{ gap.stiffness, gap.width }.slope(gap.distance),
-                  obstacle.friction(),
-                  standing[contact.obstacle].pose.to_own(contact.of_obstacle),
-                  {},
-                  contact.at.nearest.b };
-      if (obstacle.deforms())
-      {
-        const ObstacleShape &shape = obstacle.shape();
-        const unsigned int   part  = contact.pair.of_obstacle;
-        if (contact.pair.kind == PairKind::node_triangle)
-          at.vertices = shape.triangles[part];
-        else if (contact.pair.kind == PairKind::edge_edge)
-          at.vertices = { { shape.edges[part][0], shape.edges[part][1], 0 } };
-        else
-          at.vertices = { { shape.points[part], 0, 0 } };
-      }
-      result.push_back(at);
-    }
+      if (const auto at = rubbing_of(contact))
+        result.push_back(*at);
     std::sort(result.begin(), result.end(),
               [](const Rubbing &a, const Rubbing &b)
               { return std::tie(a.obstacle, a.key) < std::tie(b.obstacle, b.key); });
@@ -268,28 +273,28 @@ namespace Exemplar
   ObstacleTerm::renew(const TermPoint &at)
   {
     constexpr unsigned int max_renewals = 20;
-    if (!have_friction || !in_step || n_renewals > max_renewals)
+    if (!have_friction || !step.has_begun || step.n_renewals > max_renewals)
       return TermChange::none;
     std::vector<Rubbing> fresh            = rubbing_at(at.positions);
-    const auto [own_greatest, own_change] = force_and_change(fresh, rubbing);
+    const auto [own_greatest, own_change] = force_and_change(fresh, step.rubbing);
     const double greatest                 = free_dofs->exchange().max(own_greatest);
     const double change                   = free_dofs->exchange().max(own_change);
     // where a step begins nothing may push yet
-    const bool lets_go = springs && (greatest > 0. || !is_beginning) && springs->let_go();
-    is_beginning       = false;
+    const bool lets_go = springs && (greatest > 0. || !step.is_beginning) && springs->let_go();
+    step.is_beginning  = false;
     if (change <= obstacles.lag_tolerance * greatest)
       return lets_go ? TermChange::values : TermChange::none;
-    ++n_renewals;
-    rubbing = std::move(fresh);
+    ++step.n_renewals;
+    step.rubbing = std::move(fresh);
     return TermChange::values;
   }
 
   SpaceVector3
-  ObstacleTerm::slip(const Rubbing &at, const Vector &positions) const
+  ObstacleTerm::motion_along(const Rubbing &at, const Vector &positions) const
   {
     const StandingObstacle &now = standing[at.obstacle];
     SpaceVector3            u   = -now.pose.to_space(at.own_place);
-    for (const Earlier &before : earlier)
+    for (const Earlier &before : step.earlier)
     {
       const StandingObstacle &then     = before.standing[at.obstacle];
       SpaceVector3            own_then = at.own_place;
@@ -300,7 +305,14 @@ namespace Exemplar
     }
     for (unsigned int i = 0; i < at.gap.n_nodes; ++i)
       u += at.gap.coefficients[i]
-           * (at_node(positions, at.gap.nodes[i]) - at_node(slip_base, at.gap.nodes[i]));
+           * (at_node(positions, at.gap.nodes[i]) - at_node(step.slip_base, at.gap.nodes[i]));
+    return u;
+  }
+
+  SpaceVector3
+  ObstacleTerm::slip(const Rubbing &at, const Vector &positions) const
+  {
+    const SpaceVector3 u = motion_along(at, positions);
     return u - (u * at.gap.normal) * at.gap.normal;
   }
 
@@ -310,7 +322,7 @@ namespace Exemplar
     if (!have_friction)
       return {};
     double heat = 0.;
-    for (const Rubbing &at : rubbing)
+    for (const Rubbing &at : step.rubbing)
       heat += heat_of(at, end.positions);
     return heat;
   }
@@ -319,7 +331,7 @@ namespace Exemplar
   ObstacleTerm::heat_of(const Rubbing &at, const Vector &positions) const
   {
     // of a velocity that lasts for the step
-    return rate * step_size * slip_energy(at).heat(slip(at, positions).norm());
+    return step.rate * step.size * slip_energy(at).heat(slip(at, positions).norm());
   }
 
   template <typename Visit>
@@ -334,7 +346,7 @@ namespace Exemplar
       for (unsigned int i = 0; i < contact.gap.n_nodes; ++i)
         visit(contact.obstacle, contact.gap.nodes[i], -gradient[i]);
     }
-    for (const Rubbing &at : rubbing)
+    for (const Rubbing &at : step.rubbing)
     {
       const SpaceVector3 u     = slip(at, positions);
       const SpaceVector3 force = -slip_energy(at).force_by_slip(u.norm()) * u;
@@ -359,7 +371,7 @@ namespace Exemplar
     }
     if (springs)
       force_of_springs = springs->force(end.positions);
-    for (const Rubbing &at : rubbing)
+    for (const Rubbing &at : step.rubbing)
       sums_of[at.obstacle].heat += heat_of(at, end.positions);
     visit_forces(
         end.positions,
@@ -369,18 +381,18 @@ namespace Exemplar
           Sums              &sums = sums_of[obstacle];
           sums.force += force;
           sums.torque += dealii::cross_product_3d(x - standing[obstacle].pose.place, force);
-          sums.work += force * (x - at_node(start, node));
+          sums.work += force * (x - at_node(step.start, node));
         });
   }
 
   void
   ObstacleTerm::leave_step()
   {
-    in_step = false;
+    step.has_begun = false;
     if (springs)
       springs->leave_step();
-    rubbing.clear();
-    there.clear();
+    step.rubbing.clear();
+    step.there.clear();
   }
 
   // The potential
@@ -402,7 +414,7 @@ namespace Exemplar
       for (unsigned int i = 0; i < contact.gap.n_nodes; ++i)
         add_force(contact.gap.nodes[i], gradient[i]);
     }
-    for (const Rubbing &rub : rubbing)
+    for (const Rubbing &rub : step.rubbing)
     {
       const SpaceVector3 u      = slip(rub, at.positions);
       const SlipEnergy   energy = slip_energy(rub);
@@ -422,7 +434,7 @@ namespace Exemplar
     for (const Contact &contact : contacts(positions))
       if (contact.gap.distance > 0.)
         visit(contact.gap, hessian_of(contact, kind));
-    for (const Rubbing &at : rubbing)
+    for (const Rubbing &at : step.rubbing)
     {
       const auto     curvature = slip_energy(at).curvature(slip(at, positions), at.gap.normal);
       ContactHessian blocks;
@@ -563,12 +575,6 @@ namespace Exemplar
     fields.push_back(std::move(pressure));
   }
 
-  NoGradients
-  ObstacleTerm::no_gradients() const
-  {
-    return { "of bodies that meet obstacles", "Leave Obstacles/Names empty." };
-  }
-
   void
   ObstacleTerm::save(boost::archive::binary_oarchive &archive) const
   {
@@ -587,14 +593,14 @@ namespace Exemplar
   ObstacleTerm::memory_consumption() const
   {
     std::size_t bytes = surface.memory_consumption() + node_areas.size() * sizeof(double)
-                        + rubbing.size() * sizeof(Rubbing) + start.memory_consumption();
+                        + step.rubbing.size() * sizeof(Rubbing) + step.start.memory_consumption();
     for (const Obstacle &obstacle : obstacles.all)
       bytes += obstacle.memory_consumption();
     for (const KeptPairs &pairs : kept)
       bytes += pairs.pairs.capacity() * sizeof(ContactPair)
                + pairs.places.capacity() * sizeof(SpaceVector3);
     for (const auto &widths : obstacles.start_widths)
-      bytes += widths.size() * 4 * sizeof(double);
+      bytes += widths.size() * (sizeof(StartWidth) + 3 * sizeof(double));
     return bytes;
   }
 } // namespace Exemplar

@@ -60,6 +60,27 @@ namespace Exemplar::Python
       return rows(values, values.size() / 3);
     }
 
+    py::dict
+    of_obstacles(const std::vector<ObstacleGradients> &found)
+    {
+      py::dict result;
+      for (const ObstacleGradients &obstacle : found)
+      {
+        py::dict one;
+        if (obstacle.displacement)
+        {
+          const SpaceVector3         &d = *obstacle.displacement;
+          const std::array<double, 3> entries{ { d[0], d[1], d[2] } };
+          one["displacement"] = py::array_t<double>(3, entries.data());
+        }
+        if (obstacle.radius)
+          one["radius"] = *obstacle.radius;
+        if (obstacle.friction)
+          one["friction"] = *obstacle.friction;
+        result[py::str(obstacle.name)] = one;
+      }
+      return result;
+    }
   } // namespace
 
   py::dict
@@ -83,6 +104,8 @@ namespace Exemplar::Python
     result["handles"]      = rows(found.handles);
     result["nodal_forces"] = rows(found.nodal_forces);
     result["gravity"]      = py::array_t<double>(3, found.gravity.data());
+    if (!found.obstacles.empty())
+      result["obstacles"] = of_obstacles(found.obstacles);
     py::list weak;
     for (const unsigned int weight : found.weakly_active)
       weak.append(weight);
@@ -156,6 +179,9 @@ namespace Exemplar::Python
         "                          there with Region blend length\n"
         "  handles (n, 3)          by the positions of held nodes; zero on free ones\n"
         "  nodal_forces (n, 3), gravity (3,)\n"
+        "  obstacles               a dictionary by names, of dictionaries with displacement (3,), "
+        "radius\n"
+        "                          and friction; beside obstacles\n"
         "  weakly_active           a list of weights that are about to reach or to leave their\n"
         "                          bound: there gradients are one-sided\n"
         "With quadratic elements rows of poses, handles and nodal_forces are those of gradient(), "

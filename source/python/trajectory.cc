@@ -189,9 +189,10 @@ namespace Exemplar::Python
       {
         result["mass_damping"]       = *found.mass_damping;
         result["stiffness_damping"]  = *found.stiffness_damping;
-        result["initial_positions"]  = array_of_nodes(std::move(*found.initial_positions));
         result["initial_velocities"] = array_of_nodes(std::move(*found.initial_velocities));
       }
+      if (found.initial_positions)
+        result["initial_positions"] = array_of_nodes(std::move(*found.initial_positions));
       py::list weak;
       for (const auto &[step, weight] : found.weakly_active)
         weak.append(py::make_tuple(step, weight));
@@ -310,7 +311,9 @@ namespace Exemplar::Python
           "  weakly_active           a list of (step, weight), both from 0\n"
           "and of a dynamic scene, with all else where it is,\n"
           "  mass_damping, stiffness_damping          floats\n"
-          "  initial_positions, initial_velocities    (n, 3), of the state at the beginning\n"
+          "  initial_positions, initial_velocities    (n, 3), of the state at the beginning; the "
+          "first\n"
+          "                                           of a static scene with friction, too\n"
           "With quadratic elements rows are those of problem.vjp(): dJ_dx and dJ_dv have one for "
           "each\n"
           "vertex or for each node, initial_positions and initial_velocities one for each node.\n"

@@ -10,6 +10,12 @@
 
 namespace Exemplar
 {
+  /// Derivatives of a function by the shares of a ContactSurface [1/N], and by the squares of its edges' lengths at rest.
+  struct ShareDerivatives
+  {
+    std::vector<double> triangles, edges, nodes, squares;
+  };
+
   /// What of the body meets obstacles: the flat triangles of its boundary (four of the six nodes of a quadratic face),
   /// their edges and nodes, each with its share of E A [N], the sum of Young's modulus times area at rest: a third of
   /// those of its triangles at a node and an edge. Of several processes each has its own faces, and edges and nodes
@@ -22,6 +28,19 @@ namespace Exemplar
     /// Take the shares of this material.
     void
     set_material(const Material &material);
+
+    /// Zeros of the right sizes.
+    ShareDerivatives
+    no_derivatives() const;
+
+    /// Chain rule: add the derivatives of a function of shares and squares by Young's modulus of the cells and by the
+    /// rest positions of the nodes, by degree of freedom, of which those in the middles of edges are numbers of their own.
+    void
+    carry(const ShareDerivatives &by_shares,
+          const Material         &material,
+          const FESpace          &fe_space,
+          std::vector<double>    &by_young,
+          dealii::Vector<double> &by_rest_positions) const;
 
     /// A flat triangle of the body's surface.
     struct Triangle
@@ -59,6 +78,15 @@ namespace Exemplar
       return triangles.size() * sizeof(Triangle) + edges.size() * sizeof(Edge)
              + nodes.size() * sizeof(Node);
     }
+
+  private:
+    /// The number of the edge from corner k of a triangle to the next.
+    unsigned int
+    edge_of(const Triangle &triangle, unsigned int k) const;
+
+    /// The number of its corner k.
+    unsigned int
+    node_of(const Triangle &triangle, unsigned int k) const;
   };
 } // namespace Exemplar
 

@@ -80,6 +80,13 @@ namespace Exemplar
       return when.holds(time, rounding);
     }
 
+    /// Whether it is there at all times.
+    bool
+    is_always_there() const
+    {
+      return when.is_always();
+    }
+
     /// Whether From lets it appear after t = 0.
     bool
     appears() const
@@ -115,6 +122,12 @@ namespace Exemplar
     /// Let it be farther from the body, by this [m], for all times; a surface goes along `direction`.
     void
     set_back(double by, const SpaceVector3 &direction);
+
+    bool
+    was_set_back() const
+    {
+      return n_set_back > 0;
+    }
 
     /// Number of calls of set_back().
     unsigned int

@@ -4,6 +4,7 @@
 
 #include <exemplar/obstacles/obstacle.h>
 
+#include <array>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -12,6 +13,14 @@ namespace Exemplar
 {
   /// A number of a part of the body and a part of an obstacle that may meet.
   using PairKey = std::uint64_t;
+
+  /// The width of a pair that began nearer than all others push from: its distance then.
+  struct StartWidth
+  {
+    double                width;  ///< [m]
+    std::array<double, 3> shares; ///< of the body's nodes of the pair
+    SpaceVector3 normal; ///< the width's gradient by a node's first place is its share of this
+  };
 
   /// The obstacles of a scene.
   struct Obstacles
@@ -28,14 +37,22 @@ namespace Exemplar
     bool
     have_friction() const;
 
+    /// The width of a pair of an obstacle's own; null: it has none.
+    const StartWidth *
+    own_width(const unsigned int obstacle, const PairKey key) const
+    {
+      const auto found = start_widths[obstacle].find(key);
+      return found == start_widths[obstacle].end() ? nullptr : &found->second;
+    }
+
     std::vector<Obstacle> all;
     double                width;         ///< d_hat: from where they push [m]
     double                slip_speed;    ///< [m/s]
     double                lag_tolerance; ///< part of the greatest normal force
     FreeBodies            free;          ///< what holds a static body
     double                diameter;      ///< of the body [m]
-    /// Widths of pairs that began nearer than `width`, of each obstacle [m].
-    std::vector<std::unordered_map<PairKey, double>> start_widths;
+    /// Of pairs that began nearer than `width`, of each obstacle.
+    std::vector<std::unordered_map<PairKey, StartWidth>> start_widths;
   };
 } // namespace Exemplar
 

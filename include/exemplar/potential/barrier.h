@@ -46,6 +46,20 @@ namespace Exemplar
       const double r = (s - 1.) / s;
       return -stiffness / width * (2. * std::log(s) + 4. * r - r * r);
     }
+
+    /// db/dw [N].
+    double
+    value_by_width(const double d) const
+    {
+      return (value(d) - d * slope(d)) / width;
+    }
+
+    /// d^2b/dd dw [N/m].
+    double
+    slope_by_width(const double d) const
+    {
+      return -d / width * curvature(d);
+    }
   };
 } // namespace Exemplar
 

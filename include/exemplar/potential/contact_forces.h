@@ -26,6 +26,11 @@ namespace Exemplar
   ContactHessian
   hessian_of(const Contact &contact, Tangent kind);
 
+  /// Inverse of the Gram matrix of dv, the second derivative of v^2 / 2 by the free parameters [1/m^2]; those of parallel
+  /// edges are one.
+  dealii::Tensor<2, 2>
+  inverse_of_free(const Nearest &at);
+
   /// What rubs at a contact, with the normal force that it had when this was found.
   struct Rubbing
   {

@@ -12,6 +12,9 @@
 
 namespace Exemplar
 {
+  /// c in k = c E A, doc/contact.md.
+  constexpr double contact_stiffness_factor = 0.1;
+
   /// What of the body meets what of an obstacle.
   enum class PairKind
   {

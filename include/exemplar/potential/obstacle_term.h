@@ -3,7 +3,7 @@
 #define exemplar_obstacle_term_h
 
 #include <exemplar/body/time_integrator.h>
-#include <exemplar/potential/contact_forces.h>
+#include <exemplar/potential/contact_slopes.h>
 #include <exemplar/potential/potential_term.h>
 #include <exemplar/potential/weak_springs.h>
 
@@ -141,6 +141,47 @@ namespace Exemplar
     std::vector<Contact>
     contacts(const Vector &positions, double range = 1.) const;
 
+    /// Where the obstacles were, in the formula of the time scheme.
+    struct Earlier
+    {
+      double                        weight;
+      std::vector<StandingObstacle> standing;
+    };
+
+    /// What of the term belongs to the step that has begun.
+    struct Step
+    {
+      double               size      = 0.;    ///< [s]
+      bool                 has_begun = false; ///< and has not been left
+      Vector               start;             ///< positions where it begins
+      std::vector<char>    there;             ///< whether each obstacle is there; empty: all are
+      std::vector<Earlier> earlier;           ///< empty without friction
+      Vector               slip_base;         ///< of the body: x_star of the time scheme [m]
+      double               rate = 0.; ///< gamma of the time scheme, or one over the step [1/s]
+      std::vector<Rubbing> rubbing;   ///< since the last renewal
+      unsigned int         n_renewals   = 0;
+      bool                 is_beginning = false; ///< no renewal yet
+    };
+
+    const Step &
+    get_step() const
+    {
+      return step;
+    }
+
+    /// Return to a step that was left for others.
+    void
+    set_step(Step former)
+    {
+      step = std::move(former);
+    }
+
+    /// Derivatives of the slope along a displacement, of barriers and of friction whose forces are those at these
+    /// positions, in a mesh with this space. Set_time() must have told the time, and begin_step() the start where there
+    /// is friction.
+    ObstacleSlopes
+    slopes(const Vector &positions, const Vector &along, const FESpace &fe_space) const;
+
   private:
     /// What an obstacle has done at the end of a step, and since the beginning.
     struct Sums
@@ -175,6 +216,10 @@ namespace Exemplar
     void
     follow_times(const State &at);
 
+    /// What rubs at a contact, if anything does.
+    std::optional<Rubbing>
+    rubbing_of(const Contact &contact) const;
+
     /// What would rub at these positions.
     std::vector<Rubbing>
     rubbing_at(const Vector &positions) const;
@@ -183,7 +228,11 @@ namespace Exemplar
     void
     remember_slip_base(const State &at);
 
-    /// The body's slip along the obstacle [m]: its velocity, as the time scheme has it, over the scheme's rate.
+    /// How the body has moved beside the obstacle [m]: its velocity relative to it, as the time scheme has it, over the scheme's rate.
+    SpaceVector3
+    motion_along(const Rubbing &at, const Vector &positions) const;
+
+    /// Its slip, the part of that along the obstacle [m].
     SpaceVector3
     slip(const Rubbing &at, const Vector &positions) const;
 
@@ -194,13 +243,24 @@ namespace Exemplar
     SlipEnergy
     slip_energy(const Rubbing &at) const
     {
-      return { at.coefficient * at.force, obstacles.slip_speed / rate };
+      return { at.coefficient * at.force, obstacles.slip_speed / step.rate };
     }
+
+    /// The motion of a contact that rubs.
+    ContactMotion
+    motion_of(const Rubbing &at, const Vector &positions) const;
+
+    /// Add the derivatives by what makes the stiffness and the width of a contact.
+    void
+    add_origins(const Contact      &contact,
+                const ContactSlope &slope,
+                ShareDerivatives   &by_shares,
+                ObstacleSlopes     &sums) const;
 
     bool
     is_there(const unsigned int obstacle) const
     {
-      return there.empty() || there[obstacle] != 0;
+      return step.there.empty() || step.there[obstacle] != 0;
     }
 
     const Obstacles              &obstacles;
@@ -209,29 +269,12 @@ namespace Exemplar
     const bool                    have_friction;
     std::vector<StandingObstacle> standing;
     const TimeIntegrator         *integrator;
-
-    /// Where the obstacles were, in the formula of the time scheme.
-    struct Earlier
-    {
-      double                        weight;
-      std::vector<StandingObstacle> standing;
-    };
-
-    std::vector<Earlier>       earlier;   ///< empty without friction
-    Vector                     slip_base; ///< of the body: x_star of the time scheme
-    double                     rate = 0.; ///< gamma of the time scheme, or one over the step [1/s]
-    std::vector<char>          there;     ///< whether each is there in this step
-    double                     time      = 0.;
-    double                     step_size = 0.;
-    bool                       in_step   = false;
-    Vector                     start; ///< positions where the step begins
-    std::optional<WeakSprings> springs;
-    std::vector<Rubbing>       rubbing; ///< since the last renewal
-    unsigned int               n_renewals   = 0;
-    bool                       is_beginning = false; ///< of a step: no renewal yet
-    std::vector<Sums>          sums_of;              ///< of this process
-    std::vector<char>          has_appeared; ///< of those with From, whether they have been there
-    mutable std::vector<KeptPairs> kept;     ///< of each obstacle; no result depends on it
+    Step                          step;
+    std::optional<WeakSprings>    springs;
+    double                        time = 0.;
+    std::vector<Sums>             sums_of; ///< of this process
+    std::vector<char> has_appeared;        ///< of those with From, whether they have been there
+    mutable std::vector<KeptPairs> kept;   ///< of each obstacle; no result depends on it
     double                         barrier_energy = 0.; ///< where a step ended
     double                         least_gap;
     double                         n_pairs = 0.;

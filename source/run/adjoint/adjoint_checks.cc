@@ -69,6 +69,16 @@ namespace Exemplar
                  : solver.tolerance;
     }
 
+    /// Of a step. What friction has not settled shows in gradients many times enlarged.
+    double
+    allowed_residual(const Problem &problem)
+    {
+      const double required = required_residual(problem.parameters.solver);
+      return has_friction(problem) ? std::max(
+                 1e-9, 10. * std::max(required, problem.actions.obstacles->lag_tolerance))
+                                   : std::max(1e-6, 10. * required);
+    }
+
     /// Throws UserError, by name, for terms of the potential that derivatives_of_slope() does not
     /// know.
     void
@@ -93,6 +103,12 @@ namespace Exemplar
     return false;
   }
 
+  bool
+  has_friction(const Problem &problem)
+  {
+    return problem.actions.obstacles != nullptr && problem.actions.obstacles->have_friction();
+  }
+
   void
   require_known_scene(const Problem &problem)
   {
@@ -101,6 +117,10 @@ namespace Exemplar
              "Set Scene = static, or record the steps: with problem.record() as trajectory.");
     require_known_potential(problem);
     require_known_way(problem);
+    if (has_friction(problem))
+      refuse(
+          "of single equilibria with friction, as that depends on where the body has slipped from",
+          "Record the steps: with problem.record() as trajectory.");
   }
 
   void
@@ -156,13 +176,17 @@ namespace Exemplar
   void
   require_solved_step(const Problem &problem, const Evaluation &evaluation, const unsigned int step)
   {
-    const double   bound    = std::max(1e-6, 10. * required_residual(problem.parameters.solver));
+    const double   bound    = allowed_residual(problem);
     const Residual residual = problem.potential.residual(problem.state, evaluation);
     const double   value    = std::max(residual.positions, residual.weights);
     if (!(value <= bound))
       throw UserError(fmt::format("vjp: step {}, counted from 0, ends in no equilibrium of its "
-                                  "forces (residual {:.2g}, allowed {:.2g}). Lower "
-                                  "Solver/Step tolerance, or Tolerance.",
-                                  step, value, bound));
+                                  "forces (residual {:.2g}, allowed {:.2g}). Lower {}.",
+                                  step, value, bound,
+                                  has_friction(problem)
+                                      ? "Solver/Step tolerance, Tolerance, or Obstacles/Lag "
+                                        "tolerance, or take smaller steps, as friction is found "
+                                        "again twenty times at most"
+                                      : "Solver/Step tolerance, or Tolerance"));
   }
 } // namespace Exemplar

@@ -4,6 +4,7 @@
 #include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/example_strains.h>
 #include <exemplar/run/adjoint/gradients.h>
+#include <exemplar/run/adjoint/slope_of_contact.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,31 @@ namespace Exemplar
       for (auto &number : numbers)
         number = -number;
       return numbers;
+    }
+  } // namespace
+
+  namespace
+  {
+    std::vector<ObstacleGradients>
+    of_obstacles(const Problem &problem, const SlopeDerivatives &slope)
+    {
+      std::vector<ObstacleGradients> result;
+      for (std::size_t i = 0; i < slope.of_obstacles.size(); ++i)
+      {
+        const Obstacle   &obstacle = problem.actions.obstacles->all[i];
+        const auto       &found    = slope.of_obstacles[i];
+        ObstacleGradients one{ obstacle.name(), {}, {}, {} };
+        if (!obstacle.was_set_back())
+        {
+          one.displacement = -found.by_place;
+          if (obstacle.shape().radius > 0.)
+            one.radius = -found.by_radius;
+        }
+        if (obstacle.friction() > 0.)
+          one.friction = -found.by_coefficient;
+        result.push_back(std::move(one));
+      }
+      return result;
     }
   } // namespace
 
@@ -91,8 +117,10 @@ namespace Exemplar
       if (poses.is_strained(i))
         result.poses.push_back(negative(std::move(slope.by_poses[i])));
     const ExampleParameters &examples = problem.parameters.examples;
-    if (!examples.weights_per_region || examples.region_blend_length == 0.)
+    if ((!examples.weights_per_region || examples.region_blend_length == 0.)
+        && knows_starts_beside_obstacles(problem))
       result.rest_positions = negative(std::move(slope.by_rest_positions));
+    result.obstacles = of_obstacles(problem, slope);
     return result;
   }
 
@@ -111,6 +139,10 @@ namespace Exemplar
       all = all && (!*numbers || is_finite(**numbers));
     for (const Vector &pose : found.poses)
       all = all && is_finite(pose);
+    for (const ObstacleGradients &obstacle : found.obstacles)
+      all = all && std::isfinite(obstacle.displacement.value_or(SpaceVector3()).norm())
+            && std::isfinite(obstacle.radius.value_or(0.))
+            && std::isfinite(obstacle.friction.value_or(0.));
     if (!all || (found.rest_positions && !is_finite(*found.rest_positions)))
       throw SolverFailure(too_large);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/run/adjoint/example_strains.h>
+#include <exemplar/run/adjoint/slope_of_contact.h>
 #include <exemplar/run/adjoint/slope_of_points.h>
 
 // The slope of Psi, Eqs. (5), (25), (26), (37) and (38).
@@ -145,6 +146,7 @@ namespace Exemplar
     SlopeOfPoints<ElasticPart>(problem, direction.positions, part).add_to(sums);
     add_slope_of_ridge(problem, direction, sums);
     add_slope_of_loads(problem, direction, sums);
+    add_slope_of_contact(problem, direction, sums);
     return sums;
   }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/run/adjoint/adjoint_checks.h>
 #include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/example_strains.h>
+#include <exemplar/run/adjoint/slope_of_contact.h>
 #include <exemplar/run/adjoint/slope_of_motion.h>
 #include <exemplar/run/adjoint/trajectory_gradients.h>
 
@@ -22,9 +24,11 @@ namespace Exemplar
     class Visit
     {
     public:
-      explicit Visit(Problem &problem) : problem(problem)
+      explicit Visit(Problem &problem) : problem(problem), obstacles(find_obstacle_term(problem))
       {
         std::swap(own_state, problem.state); // a copy would leave views of others dangling
+        if (obstacles != nullptr)
+          own_step = obstacles->get_step();
       }
 
       Visit(const Visit &) = delete;
@@ -39,6 +43,8 @@ namespace Exemplar
         problem.potential.leave_step(problem.state);
         problem.potential.set_time(problem.state.time, problem.state);
         problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
+        if (obstacles != nullptr) // whose friction is of a step alone
+          obstacles->set_step(std::move(own_step));
       }
 
       /// Set the state at the end of a step from `start`, and evaluate there.
@@ -49,15 +55,17 @@ namespace Exemplar
         problem.state.positions  = step.positions;
         problem.state.velocities = step.velocities;
         problem.state.weights    = step.weights;
-        if (problem.actions.integrator != nullptr)
-          problem.potential.begin_step(start, step.size);
+        problem.potential.begin_step(start, step.size);
         problem.potential.set_time(step.time, problem.state);
         problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
+        problem.potential.renew(problem.state, evaluation, true);
       }
 
     private:
-      Problem &problem;
-      State    own_state;
+      Problem           &problem;
+      State              own_state;
+      ObstacleTerm      *obstacles;
+      ObstacleTerm::Step own_step;
     };
 
     void
@@ -88,6 +96,12 @@ namespace Exemplar
       to.by_importance += some.by_importance;
       for (unsigned int c = 0; c < 3; ++c)
         to.by_gravity[c] += some.by_gravity[c];
+      for (std::size_t i = 0; i < to.of_obstacles.size(); ++i)
+      {
+        to.of_obstacles[i].by_place += some.of_obstacles[i].by_place;
+        to.of_obstacles[i].by_radius += some.of_obstacles[i].by_radius;
+        to.of_obstacles[i].by_coefficient += some.of_obstacles[i].by_coefficient;
+      }
     }
 
     /// Derivatives of J by a state, through later steps.
@@ -128,9 +142,10 @@ namespace Exemplar
         {
           result.mass_damping       = -by_mass_damping;
           result.stiffness_damping  = -by_stiffness_damping;
-          result.initial_positions  = std::move(carried[0].positions);
           result.initial_velocities = std::move(carried[0].velocities);
         }
+        if (is_dynamic || has_friction(problem))
+          result.initial_positions = std::move(carried[0].positions);
         std::reverse(result.weakly_active.begin(), result.weakly_active.end());
         return std::move(result);
       }
@@ -179,7 +194,7 @@ namespace Exemplar
         const Direction by_state = take_derivatives(i);
         if (by_state.positions.all_zero() && all_zero(by_state.weights) && by_velocities.all_zero())
         {
-          carry({});
+          carry({}, {});
           return;
         }
         system.go_to_state(evaluation);
@@ -195,7 +210,7 @@ namespace Exemplar
         add(slope, sum);
         by_mass_damping += of_motion.by_mass_damping;
         by_stiffness_damping += of_motion.by_stiffness_damping;
-        carry(of_motion);
+        carry(of_motion, slope.by_start);
       }
 
       static bool
@@ -237,14 +252,20 @@ namespace Exemplar
         return slope;
       }
 
-      /// Carry the derivatives back to the states before this step.
+      /// Carry the derivatives back to the states before this step. `by_start` is the slope's by what slips are counted from,
+      /// through friction; empty: zero.
       void
-      carry(const MotionDerivatives &of_motion)
+      carry(const MotionDerivatives &of_motion, const Vector &by_start)
       {
-        carried[0] = std::move(carried[1]);
-        carried[1] = { zeros(), zeros() };
+        carried[0]      = std::move(carried[1]);
+        carried[1]      = { zeros(), zeros() };
+        const bool rubs = by_start.size() > 0;
         if (!is_dynamic)
+        {
+          if (rubs)
+            carried[0].positions -= by_start;
           return;
+        }
         const TimeIntegrator &integrator = *problem.actions.integrator;
         const State           places;
         const auto            history = integrator.history(places);
@@ -252,6 +273,8 @@ namespace Exemplar
         {
           const double c = history[m].weight;
           carried[m].positions.add(-c * integrator.rate_factor(), by_velocities);
+          if (rubs)
+            carried[m].positions.add(-c, by_start);
           if (of_motion.by_base.size() > 0)
           {
             carried[m].positions.add(-c, of_motion.by_base);

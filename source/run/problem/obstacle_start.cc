@@ -67,14 +67,16 @@ namespace Exemplar
       {
         StandingObstacle standing(obstacle);
         standing.move_to(0.);
-        auto                                   &widths = obstacles.start_widths[number];
-        std::vector<std::pair<PairKey, double>> found;
+        auto                                       &widths = obstacles.start_widths[number];
+        std::vector<std::pair<PairKey, StartWidth>> found;
         ContactSearch(surface, obstacles, standing, number)
             .visit_near(positions, obstacles.width,
                         [&](const ContactPair &pair, const PairDistance &at)
                         {
                           if (at.distance < obstacles.width)
-                            found.emplace_back(pair.key(), at.distance);
+                            found.emplace_back(pair.key(),
+                                               StartWidth{ at.distance, at.nearest.a,
+                                                           standing.pose.rotation * at.normal });
                         });
         widths.insert(found.begin(), found.end());
       }

@@ -204,6 +204,48 @@ namespace Exemplar::Testing
     EXPECT_LT(own, most * 1e-13);
   }
 
+  TEST(ObstacleTerm, SlopesAreDifferentiatedWithWhatFrictionLags)
+  {
+    for (const std::string &shape : shapes)
+    {
+      SCOPED_TRACE(shape);
+      const Above  above(shape, { "Obstacles/it/Turn=0.2*t; 5*t; t" });
+      const Vector x = above.lowered(0.15, 6), start = above.lowered(0.14, 7),
+                   along = random_direction(x.size());
+      // forces along the displacement, with friction found again at the end
+      const auto slope = [&](const Vector &end, const Vector &begin)
+      {
+        State state     = above.problem.state;
+        state.positions = begin;
+        above.term->begin_step(state, 0.02);
+        above.term->set_time(0.02);
+        above.term->renew({ end, {} });
+        return above.sums(end)->gradient * along;
+      };
+      Vector way = random_direction(x.size());
+      way *= 1. / way.linfty_norm();
+      const auto difference = [&](const auto &function)
+      {
+        constexpr double h = 1e-5;
+        return (8. * (function(h) - function(-h)) - function(2. * h) + function(-2. * h))
+               / (12. * h);
+      };
+      const auto moved = [&](const Vector &from, const double part)
+      {
+        Vector result = from;
+        result.add(part, way);
+        return result;
+      };
+      const double by_end   = difference([&](const double h) { return slope(moved(x, h), start); });
+      const double by_start = difference([&](const double h) { return slope(x, moved(start, h)); });
+      slope(x, start);
+      const ObstacleSlopes found = above.term->slopes(x, along, above.problem.body.fe_space);
+      EXPECT_NEAR(found.by_positions * way, by_end, 1e-6 * std::abs(by_end));
+      EXPECT_NEAR(found.by_start * way, by_start, 1e-6 * std::abs(by_start));
+      above.term->leave_step();
+    }
+  }
+
   TEST(ObstacleTerm, ForcesHaveNoTorqueAboutTheObstacle)
   {
     // the body's forces on a sphere go through its middle

@@ -13,6 +13,10 @@ namespace Exemplar
   bool
   has_orthotropic_cells(const Problem &problem);
 
+  /// Whether a coefficient of friction is positive.
+  bool
+  has_friction(const Problem &problem);
+
   /// Throws UserError as above, and for scenes that are not static or whose state depends on the
   /// path.
   void

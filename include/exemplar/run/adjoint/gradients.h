@@ -8,6 +8,16 @@
 
 namespace Exemplar
 {
+  /// The gradient by an obstacle.
+  struct ObstacleGradients
+  {
+    std::string name;
+    std::optional<SpaceVector3>
+                          displacement; ///< at all times; none where the obstacle was set back
+    std::optional<double> radius;       ///< of spheres and capsules that were not set back
+    std::optional<double> friction;     ///< if it is positive
+  };
+
   /// The gradient of a function J(x, w) of the positions and weights of a static equilibrium by the
   /// data that the equilibrium depends on; doc/gradients.md.
   struct Gradients
@@ -16,11 +26,12 @@ namespace Exemplar
     std::vector<double>                density;        ///< by cell
     std::optional<double>              importance;     ///< none without examples
     std::vector<Vector>                poses;          ///< of all examples but the rest pose
-    std::optional<Vector>              rest_positions; ///< none if blended regions depend on them
-    Vector                             handles;        ///< zero at free nodes
-    Vector                             nodal_forces;
-    std::array<double, 3>              gravity{};
-    std::vector<unsigned int> weakly_active; ///< weights at which the gradient is one-sided
+    std::optional<Vector> rest_positions; ///< none if blended regions depend on them, or obstacles
+    Vector                handles;        ///< zero at free nodes
+    Vector                nodal_forces;
+    std::array<double, 3> gravity{};
+    std::vector<ObstacleGradients> obstacles;     ///< in the order of Obstacles/Names
+    std::vector<unsigned int>      weakly_active; ///< weights at which the gradient is one-sided
   };
 
   /// Gradients at the problem's state. `by_state` is dJ/dx by degree of freedom and dJ/dw by

@@ -3,6 +3,7 @@
 #define exemplar_slope_derivatives_h
 
 #include <exemplar/kernels/symmetric.h>
+#include <exemplar/potential/contact_slopes.h>
 #include <exemplar/run/problem/problem.h>
 
 #include <array>
@@ -32,6 +33,8 @@ namespace Exemplar
     double                                by_importance = 0.;
     Vector                                by_nodal_forces;
     std::array<double, 3>                 by_gravity{};
+    Vector by_start; ///< by what slips are counted from, x_star of the time scheme; empty without friction
+    std::vector<ObstacleSlopes::OfObstacle> of_obstacles; ///< empty without obstacles
   };
 
   class ExampleStrains;

@@ -87,8 +87,9 @@ namespace Exemplar
     /// in the order of held_nodes.
     std::vector<std::vector<double>> handles;
     std::vector<unsigned int>        held_nodes;
-    std::optional<double> mass_damping, stiffness_damping; ///< in dynamic scenes, like the next two
-    std::optional<Vector> initial_positions, initial_velocities;
+    std::optional<double>            mass_damping, stiffness_damping; ///< in dynamic scenes
+    std::optional<Vector>            initial_positions;  ///< in those, and beside friction
+    std::optional<Vector>            initial_velocities; ///< in dynamic scenes
     /// Pairs of a step, counted from 0, and a weight as in Gradients::weakly_active.
     std::vector<std::pair<unsigned int, unsigned int>> weakly_active;
   };

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/potential/obstacle_term.h>
+#include <exemplar/run/adjoint/slope_of_contact.h>
+
+#include <algorithm>
+
+namespace Exemplar
+{
+  namespace
+  {
+    bool
+    begins_at_rest(const Problem &problem)
+    {
+      return problem.parameters.initial.pose.empty()
+             && problem.parameters.initial.pose_function.empty();
+    }
+
+    /// Chain rule: the nodes in the middles of edges move with the vertices.
+    void
+    add_by_vertices(const NodeNumbering &nodes, const Vector &by_nodes, Vector &by_rest_positions)
+    {
+      for (unsigned int node = 0; node < nodes.n_nodes(); ++node)
+        for (unsigned int c = 0; c < 3; ++c)
+          if (node < nodes.n_vertices())
+            by_rest_positions[3 * node + c] += by_nodes[3 * node + c];
+          else
+            for (const unsigned int end : nodes.ends(node))
+              by_rest_positions[3 * end + c] += 0.5 * by_nodes[3 * node + c];
+    }
+  } // namespace
+
+  ObstacleTerm *
+  find_obstacle_term(const Problem &problem)
+  {
+    if (problem.actions.obstacles != nullptr)
+      for (const auto &term : problem.potential.get_terms())
+        if (auto *const found = dynamic_cast<ObstacleTerm *>(term.get()))
+          return found;
+    return nullptr;
+  }
+
+  void
+  add_slope_of_contact(const Problem &problem, const Direction &direction, SlopeDerivatives &sums)
+  {
+    const ObstacleTerm *term = find_obstacle_term(problem);
+    if (term == nullptr)
+      return;
+    const FESpace &fe_space = problem.body.fe_space;
+    ObstacleSlopes slopes   = term->slopes(problem.state.positions, direction.positions, fe_space);
+    sums.by_positions += slopes.by_positions;
+    for (std::size_t cell = 0; cell < slopes.by_young.size(); ++cell)
+      sums.by_young[cell] += slopes.by_young[cell];
+    Vector &by_rest = slopes.by_rest_positions;
+    if (begins_at_rest(problem))
+      by_rest += slopes.by_first_positions;
+    add_by_vertices(fe_space.numbering(), by_rest, sums.by_rest_positions);
+    sums.by_start     = std::move(slopes.by_start);
+    sums.of_obstacles = std::move(slopes.of_obstacles);
+  }
+
+  bool
+  knows_starts_beside_obstacles(const Problem &problem)
+  {
+    if (problem.actions.obstacles == nullptr)
+      return true;
+    const Obstacles &obstacles = *problem.actions.obstacles;
+    const auto      &widths    = obstacles.start_widths;
+    const bool       is_set_back
+        = std::any_of(obstacles.all.begin(), obstacles.all.end(),
+                      [](const Obstacle &obstacle) { return obstacle.was_set_back(); });
+    const bool has_widths
+        = std::any_of(widths.begin(), widths.end(), [](const auto &own) { return !own.empty(); });
+    return !is_set_back && (!has_widths || problem.parameters.initial.pose_function.empty());
+  }
+} // namespace Exemplar
