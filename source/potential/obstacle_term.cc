@@ -17,14 +17,24 @@ namespace Exemplar
   ObstacleTerm::ObstacleTerm(const Obstacles      &obstacles,
                              const ContactSurface &surface,
                              const Material       &material)
-      : obstacles(obstacles), surface(surface), material(material),
-        have_friction(obstacles.have_friction()), sums_of(obstacles.all.size()),
-        has_appeared(obstacles.all.size(), 0), least_gap(obstacles.width)
+      : obstacles(obstacles), surface(surface), material(material), least_gap(obstacles.width)
   {
+    follow_parameters();
+  }
+
+  void
+  ObstacleTerm::follow_obstacles()
+  {
+    have_friction = obstacles.have_friction();
+    sums_of.resize(obstacles.all.size());
+    has_appeared.resize(obstacles.all.size(), 0);
+    there.clear();
+    standing.clear();
+    at_start.clear();
+    rubbing.clear();
     for (const Obstacle &obstacle : obstacles.all)
       standing.emplace_back(obstacle);
-    move_to(0.);
-    follow_parameters();
+    move_to(time);
   }
 
   void
@@ -43,6 +53,8 @@ namespace Exemplar
   void
   ObstacleTerm::follow_parameters()
   {
+    if (standing.size() != obstacles.all.size())
+      follow_obstacles();
     surface.set_material(material);
   }
 
@@ -498,6 +510,8 @@ namespace Exemplar
   ObstacleTerm::load(boost::archive::binary_iarchive &archive)
   {
     archive >> has_appeared >> sums_of >> barrier_energy >> least_gap >> n_pairs;
+    sums_of.resize(standing.size()); // some obstacles may have been added since
+    has_appeared.resize(standing.size(), 0);
   }
 
   std::size_t

@@ -83,6 +83,47 @@ class ObstacleViews(SceneTest):
         self.assertEqual(read_pvd(output)[:2], [(0, "frame_0000.vtu"), (0, "frame_0000_obstacles.vtu")])
         self.assertIn('part="1" file="frame_0004_obstacles.vtu"', (output / "animation.pvd").read_text())
 
+    def test_a_track_is_followed(self):
+        def turned(angle):  # about an axis along z through (5, 0, 0), in the unit of the mesh file, and up by it
+            c, s = np.cos(angle), np.sin(angle)
+            R = np.array(((c, -s, 0), (s, c, 0), (0, 0, 1)))
+            return R, (5, 0, 0.2 * angle) - R @ (5, 0, 0)
+        times = np.linspace(0, 0.2, 5)
+        rows = [(t, *np.column_stack(turned(20 * t)).ravel()) for t in times]
+        self.write("spin.txt", "# a matrix a frame\n" + "\n".join(", ".join(f"{x:.17g}" for x in row) for row in rows))
+        names = {"Obstacles/Names": "block", "Obstacles/block/Follow track": "spin.txt", "Obstacles/block/Shape": "box 0.5 0 -3  0.6 0.1 -2.9",
+                 "Output/Every": "1", "Output/Formats": "vtu"}
+        scene = {key: value for key, value in SCENE.items() if not key.startswith("Obstacles")}
+        output = self.solve({**scene, **names})
+        rest = read_vtu(output / "frame_0000_obstacles.vtu")[0]["Points", "Points"]
+        for step, t in enumerate(times):
+            R, p = turned(20 * t)
+            points = np.reshape(read_vtu(output / f"frame_{step:04}_obstacles.vtu")[0]["Points", "Points"], (-1, 3))
+            self.assertLess(np.abs(points - np.reshape(rest, (-1, 3)) @ R.T - 0.1 * p).max(), 1e-12)
+        # vectors, as Motion and Turn have them, linear between frames and at rest after the last
+        self.write("turn.txt", "0 0 0 0 0 0 0\n0.15 0 0 1.5 0 0 3\n")
+        of_track = self.solve({**scene, **names, "Obstacles/block/Follow track": "turn.txt"}, output="track")
+        of_formula = self.solve({**scene, **names, "Obstacles/block/Follow track": None, "Obstacles/block/Motion": "0; 0; min(t, 0.15)",
+                                 "Obstacles/block/Turn": "0; 0; 20*min(t, 0.15)"}, output="formula")
+        for step in range(5):
+            a, b = (read_vtu(o / f"frame_{step:04}_obstacles.vtu")[0]["Points", "Points"] for o in (of_track, of_formula))
+            self.assertLess(np.abs(np.subtract(a, b)).max(), 1e-12)
+
+    def test_what_is_no_track_is_refused_with_its_line(self):
+        for text, words in (("0 0 0 0 0 0 0\n0 0 0 0 0 0 0\n", "track.txt:2: t must be later"), ("# nothing\n", "has no frame"),
+                            ("0 1 2\n", "track.txt:1: it has 3 numbers. Allowed: 7"), ("0 0 0 0 0 0 0\n1 x 0 0 0 0 0\n", "track.txt:2: all of it must be finite"),
+                            ("0 2 0 0 0  0 2 0 0  0 0 2 0\n", "track.txt:1: its matrix R stretches"),
+                            ("0 1 0 0 0  0 1 0 0  0 0 -1 0\n", "track.txt:1: its matrix R mirrors")):
+            with self.subTest(words):
+                self.write("track.txt", text)
+                run = self.attempt({**SCENE, "Obstacles/block/Follow track": "track.txt"})
+                self.assertEqual(run.status, 1)
+                self.assertIn("Obstacles/block/Follow track: ", run.stderr)
+                self.assertIn(words, run.stderr)
+                self.assertFalse(run.output.exists())
+        run = self.attempt({**SCENE, "Obstacles/ball/Follow track": "track.txt"})
+        self.assertIn("Obstacles/ball/Follow track and Obstacles/ball/Motion are both given", run.stderr)
+
     def test_all_formats_show_them_in_the_unit_of_the_files(self):
         output = self.solve(SCENE)
         points = polygons(output / "frame_0004_obstacles.vtu")[0]

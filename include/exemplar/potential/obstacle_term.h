@@ -165,6 +165,10 @@ namespace Exemplar
     void
     follow_times(const State &at);
 
+    /// Know the obstacles, of which there may be more than before.
+    void
+    follow_obstacles();
+
     /// What would rub at these positions.
     std::vector<Rubbing>
     rubbing_at(const Vector &positions) const;
@@ -188,7 +192,7 @@ namespace Exemplar
     const Obstacles              &obstacles;
     ContactSurface                surface; ///< with the shares of the material
     const Material               &material;
-    const bool                    have_friction;
+    bool                          have_friction = false;
     std::vector<StandingObstacle> standing;
     std::vector<StandingObstacle> at_start; ///< of the step; empty without friction
     std::vector<char>             there;    ///< whether each is there in this step
