@@ -63,6 +63,8 @@ function seeFrame(frame) {
   const isFirst = !view.hasPlace;
   view.setPlaces(frame.places);
   view.body.setColours(frame.colours);
+  if (frame.obstacles)
+    view.obstacles.setPlaces(frame.obstacles);
   panel.showLegend(frame);
   if (isFirst) {
     view.drawPoses([...poses].map(([i, places]) => ({ places, canvas: panel.weights.bars[i].picture })));
@@ -77,6 +79,10 @@ const connection = new Connection({
   see(message) {
     if (message.kind === 0)
       view.setTopology(message);
+    else if (message.kind === 3)
+      view.setObstacles(message);
+    else if (message.kind === 4)
+      view.obstacles.setPlaces(message.places);
     else if (message.kind === 2)
       poses.set(message.number, message.places);
     else

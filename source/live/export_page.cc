@@ -199,33 +199,75 @@ namespace Exemplar::Live
     {
       Json        data;
       std::string topology, frames;
+      std::string topology_of_obstacles, obstacles; ///< empty: none
       std::size_t n_frames = 0;
       double      error    = 0.; ///< largest error of a coordinate [m]
     };
 
+    /// Frames of a body, or of obstacles, in files that list the same points.
+    class FrameBytes
+    {
+    public:
+      void
+      add(const BinaryKind   kind,
+          const double       time,
+          const fs::path    &file,
+          const BodySurface &surface)
+      {
+        const std::vector<double> places = places_in(file);
+        if (n_frames > 0 && places.size() != before.size())
+          throw UserError(file.string() + " has other nodes than the first frame.");
+        const Vector positions(places.begin(), places.end());
+        bytes += *frame_message({ kind, n_frames, n_frames, 0, time }, surface, positions);
+        error  = std::max(error, rounding_of_frame(surface, positions));
+        moves  = moves || (n_frames > 0 && places != before);
+        before = places;
+        ++n_frames;
+      }
+
+      std::string   bytes;
+      double        error    = 0.; ///< the largest of a coordinate [m]
+      bool          moves    = false;
+      std::uint32_t n_frames = 0;
+
+    private:
+      std::vector<double> before;
+    };
+
+    /// The bytes of obstacles beside frames: of the first one alone, if they do not move.
+    void
+    add_obstacles(const std::vector<RunFrame> &frames, PageRun &run)
+    {
+      const fs::path &first = frames.front().obstacles;
+      if (first.empty())
+        return;
+      const BodySurface surface(places_in(first).size() / 3, polygons_in(first));
+      FrameBytes        all;
+      for (const RunFrame &frame : frames)
+        all.add(BinaryKind::obstacles, frame.time, frame.obstacles, surface);
+      run.topology_of_obstacles = *topology_message(surface, BinaryKind::topology_of_obstacles);
+      run.obstacles = all.moves ? all.bytes : all.bytes.substr(0, all.bytes.size() / all.n_frames);
+      run.error     = std::max(run.error, all.error);
+    }
+
     PageRun
     run_in(const fs::path &directory)
     {
-      const std::vector<RunFrame> frames        = frames_of_run(directory);
-      const BodySurface           surface       = surface_in(frames.front().file);
-      const std::size_t           n_coordinates = places_in(frames.front().file).size();
-      PageRun                     run;
-      for (std::uint32_t i = 0; i < frames.size(); ++i)
-      {
-        const std::vector<double> places = places_in(frames[i].file);
-        if (places.size() != n_coordinates)
-          throw UserError(frames[i].file.string() + " has other nodes than the first frame.");
-        const Vector positions(places.begin(), places.end());
-        run.frames
-            += *frame_message({ BinaryKind::frame, i, i, 0, frames[i].time }, surface, positions);
-        run.error = std::max(run.error, rounding_of_frame(surface, positions));
-      }
+      const std::vector<RunFrame> frames  = frames_of_run(directory);
+      const BodySurface           surface = surface_in(frames.front().file);
+      FrameBytes                  all;
+      for (const RunFrame &frame : frames)
+        all.add(BinaryKind::frame, frame.time, frame.file, surface);
+      PageRun run;
+      run.frames   = std::move(all.bytes);
       run.topology = *topology_message(surface);
       run.n_frames = frames.size();
-      run.data     = { { "name", fs::absolute(directory / "").parent_path().filename().string() },
-                       { "frames", frames.size() },
-                       { "error", run.error },
-                       { "plots", plots_of(directory) } };
+      run.error    = all.error;
+      add_obstacles(frames, run);
+      run.data = { { "name", fs::absolute(directory / "").parent_path().filename().string() },
+                   { "frames", frames.size() },
+                   { "error", run.error },
+                   { "plots", plots_of(directory) } };
       add_names(directory, surface, run.data);
       return run;
     }
@@ -250,6 +292,9 @@ namespace Exemplar::Live
       const PageRun run = run_in(directory);
       elements += element("topology", runs.size(), run.topology);
       elements += element("frames", runs.size(), run.frames);
+      if (!run.obstacles.empty())
+        elements += element("topology-of-obstacles", runs.size(), run.topology_of_obstacles)
+                    + element("obstacles", runs.size(), run.obstacles);
       runs.push_back(run.data);
       result.n_frames += run.n_frames;
       result.error = std::max(result.error, run.error);

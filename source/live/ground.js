@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ground with a soft shadow, for the eye alone: nothing rests on it.
+// A ground with a soft shadow: the scene's floor, or, without one, for the eye alone.
 import * as THREE from "./three/build/three.module.js";
 
 const SIZE = 256; // of the shadow [pixels]
@@ -55,15 +55,15 @@ export class Ground {
     this.shade.material.uniforms.opacity.value = shadow;
   }
 
-  // Places the ground below the lowest point of a body at rest.
-  place(geometry, up) {
+  // Places the ground at the level of a floor, or below the lowest point of a body at rest.
+  place(geometry, up, floor) {
     this.geometry = geometry;
     const { center, radius } = geometry.boundingSphere;
     const { array } = geometry.attributes.position;
     let level = Infinity;
     for (let i = 0; i < array.length; i += 3)
       level = Math.min(level, array[i] * up.x + array[i + 1] * up.y + array[i + 2] * up.z);
-    level -= 0.003 * radius; // or soles would flicker
+    level = Number.isFinite(floor) ? floor : level - 0.003 * radius; // or soles would flicker
     const { uniforms } = this.cast;
     uniforms.up.value.copy(up);
     uniforms.level.value = level;

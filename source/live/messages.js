@@ -7,12 +7,13 @@ const HEAD = 64; // bytes before the places of a frame
 export function decode(buffer) {
   const data = new DataView(buffer);
   const kind = data.getUint32(0, true);
-  if (kind === 0)
+  if (kind === 0 || kind === 3)
     return { kind, nVertices: data.getUint32(4, true), triangles: new Uint32Array(buffer, 12) };
   const n = data.getUint32(48, true);
   const min = [0, 1, 2].map((c) => data.getFloat32(24 + 4 * c, true));
   const size = [0, 1, 2].map((c) => data.getFloat32(36 + 4 * c, true));
   const places = new Float32Array(3 * n);
+  const end = HEAD + 6 * n + (data.getUint32(52, true) ? n : 0);
   const shorts = new Int16Array(buffer, HEAD, 3 * n);
   for (let i = 0; i < 3 * n; ++i)
     places[i] = min[i % 3] + ((shorts[i] / 32767 + 1) / 2) * size[i % 3];
@@ -22,6 +23,7 @@ export function decode(buffer) {
     time: data.getFloat64(16, true),
     colours: data.getUint32(52, true) ? new Uint8Array(buffer, HEAD + 6 * n, n) : null,
     low: data.getFloat32(56, true), high: data.getFloat32(60, true),
+    obstacles: end < buffer.byteLength ? decode(buffer.slice(end)).places : null, // once they have moved
   };
 }
 

@@ -62,6 +62,7 @@ export class Panel {
     find("name").textContent = scene.name;
     document.title = `${scene.name} – exemplar live`;
     find("save").hidden = !scene.saves_poses;
+    find("said").hidden = Number.isFinite(scene.floor); // something rests on it
     this.sliders.setScene(scene);
     this.weights.setScene(scene);
     document.body.classList.remove("waits");

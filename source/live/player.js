@@ -7,7 +7,7 @@
   const { runs } = JSON.parse(find("data").textContent);
   const COLOURS = ["#1f6feb", "#e5484d", "#2f9e44", "#b45309", "#8250df", "#0e8a93"];
   const BODIES = ["#e08a3c", "#4b8fd8"];
-  const HELD = "#1d4ed8", MOVED = "#dc2626";
+  const HELD = "#1d4ed8", MOVED = "#dc2626", OBSTACLE = "#aab2bd";
   const short = (x) => (!Number.isFinite(x) ? "–" : x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-2 ? x.toExponential(1) : String(Number(x.toPrecision(3))));
   const HEAD = 64;
 
@@ -31,27 +31,56 @@
     }
   }
 
-  // A body in motion, in a scene of its own.
-  class Body {
-    constructor(run, i) {
-      Object.assign(this, run);
-      this.all = bytes(`frames-${i}`);
+  // A surface in motion: the places of its vertices by frame; of what stands still there is one.
+  class Moving {
+    constructor(frames, topology, look) {
+      this.all = bytes(frames);
       this.view = new DataView(this.all);
       this.n = this.view.getUint32(48, true);
       this.stride = HEAD + 6 * this.n;
+      this.last = this.all.byteLength / this.stride - 1;
       this.shown = -1;
-      this.scene = new THREE.Scene();
-      this.light = new THREE.DirectionalLight("#ffffff", 0.75);
-      this.scene.add(new THREE.HemisphereLight("#ffffff", "#8890a0", 0.65), this.light, this.light.target);
       this.geometry = new THREE.BufferGeometry();
-      this.geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(`topology-${i}`), 12), 1));
+      this.geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(bytes(topology), 12), 1));
       this.positions = new THREE.BufferAttribute(new Float32Array(3 * this.n), 3);
       this.geometry.setAttribute("position", this.positions);
       this.geometry.setAttribute("normal", new THREE.BufferAttribute(new Float32Array(3 * this.n), 3));
-      const mesh = new THREE.Mesh(this.geometry,
-        new THREE.MeshPhongMaterial({ color: BODIES[i % BODIES.length], side: THREE.DoubleSide, shininess: 15, specular: "#222222" }));
-      mesh.frustumCulled = false;
-      this.scene.add(mesh);
+      this.mesh = new THREE.Mesh(this.geometry, new THREE.MeshPhongMaterial(look));
+      this.mesh.frustumCulled = false;
+    }
+
+    coordinate(frame, i) {
+      const begin = frame * this.stride;
+      return this.view.getFloat32(begin + 24 + 4 * (i % 3), true) +
+        ((this.view.getInt16(begin + HEAD + 2 * i, true) / 32767 + 1) / 2) * this.view.getFloat32(begin + 36 + 4 * (i % 3), true);
+    }
+
+    timeOf(frame) {
+      return this.view.getFloat64(frame * this.stride + 16, true);
+    }
+
+    show(frame) {
+      this.shown = frame;
+      for (let i = 0; i < 3 * this.n; ++i)
+        this.positions.array[i] = this.coordinate(Math.min(frame, this.last), i);
+      this.positions.needsUpdate = true;
+      this.geometry.computeVertexNormals();
+    }
+  }
+
+  // A body in motion, in a scene of its own, and the obstacles beside it, which are seen from the side on which it is.
+  class Body extends Moving {
+    constructor(run, i) {
+      super(`frames-${i}`, `topology-${i}`, { color: BODIES[i % BODIES.length], side: THREE.DoubleSide, shininess: 15, specular: "#222222" });
+      Object.assign(this, run);
+      this.scene = new THREE.Scene();
+      this.light = new THREE.DirectionalLight("#ffffff", 0.75);
+      this.scene.add(new THREE.HemisphereLight("#ffffff", "#8890a0", 0.65), this.light, this.light.target);
+      this.scene.add(this.mesh);
+      this.obstacles = find(`obstacles-${i}`)
+        ? new Moving(`obstacles-${i}`, `topology-of-obstacles-${i}`, { color: OBSTACLE, flatShading: true, shininess: 5, specular: "#111111" }) : null;
+      if (this.obstacles)
+        this.scene.add(this.obstacles.mesh);
       this.marks = this.handles.filter(({ vertices }) => vertices.length).map(({ vertices }) => this.mark(vertices));
     }
 
@@ -68,16 +97,6 @@
       return { vertices, geometry, isMoved: far };
     }
 
-    coordinate(frame, i) {
-      const begin = frame * this.stride;
-      return this.view.getFloat32(begin + 24 + 4 * (i % 3), true) +
-        ((this.view.getInt16(begin + HEAD + 2 * i, true) / 32767 + 1) / 2) * this.view.getFloat32(begin + 36 + 4 * (i % 3), true);
-    }
-
-    timeOf(frame) {
-      return this.view.getFloat64(frame * this.stride + 16, true);
-    }
-
     // The last frame that is not after this time.
     frameAt(time) {
       let frame = 0;
@@ -89,11 +108,8 @@
     show(frame) {
       if (frame === this.shown)
         return;
-      this.shown = frame;
-      for (let i = 0; i < 3 * this.n; ++i)
-        this.positions.array[i] = this.coordinate(frame, i);
-      this.positions.needsUpdate = true;
-      this.geometry.computeVertexNormals();
+      super.show(frame);
+      this.obstacles && this.obstacles.show(frame);
       for (const { vertices, geometry } of this.marks) {
         vertices.forEach((v, k) => geometry.attributes.position.array.set(this.positions.array.subarray(3 * v, 3 * v + 3), 3 * k));
         geometry.attributes.position.needsUpdate = true;
@@ -244,7 +260,16 @@
   resize();
   show(0);
   longest.geometry.computeBoundingSphere();
-  const { center, radius } = longest.geometry.boundingSphere;
+  const sphere = longest.geometry.boundingSphere;
+  if (longest.obstacles) { // what falls or slides may go far: all of its way is to be seen
+    const way = new THREE.Box3();
+    for (let frame = longest.frames - 1; frame >= 0; --frame) {
+      longest.show(frame);
+      way.union(new THREE.Box3().setFromBufferAttribute(longest.positions));
+    }
+    way.getBoundingSphere(sphere);
+  }
+  const { center, radius } = sphere;
   controls.target.copy(center);
   camera.position.copy(center).add(new THREE.Vector3(0.35, -1, 0.3).normalize().multiplyScalar((1.35 * radius) / Math.sin(Math.PI / 9) / Math.min(1, camera.aspect)));
   camera.near = 0.01 * radius;

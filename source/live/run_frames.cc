@@ -154,7 +154,10 @@ namespace Exemplar::Live
           || name->find('/') != std::string::npos || fs::path(*name).extension() != ".vtu")
         throw UserError(animation.string()
                         + " is no list of frames that exemplar has written. Run the scene again.");
-      frames.push_back({ parse_number(*time), directory / *name });
+      if (attribute(entry, "part").value_or("0") == "0")
+        frames.push_back({ parse_number(*time), directory / *name });
+      else if (!frames.empty())
+        frames.back().obstacles = directory / *name;
     }
     if (frames.empty())
       throw UserError(animation.string() + " lists no frames. Run the scene again.");
@@ -171,6 +174,27 @@ namespace Exemplar::Live
       if (!(std::abs(place) < 1e30)) // limit of what can be drawn
         refuse(file, "a point has no finite place");
     return places;
+  }
+
+  std::vector<std::vector<unsigned int>>
+  polygons_in(const fs::path &file)
+  {
+    const std::string text         = text_of_file(file);
+    const auto        connectivity = array_in<std::int32_t>(file, text, "connectivity");
+    const std::size_t n_points     = places_in(file).size() / 3;
+    std::vector<std::vector<unsigned int>> polygons;
+    std::size_t                            begin = 0;
+    for (const std::int32_t end : array_in<std::int32_t>(file, text, "offsets"))
+    {
+      if (end < 0 || std::size_t(end) < begin + 3 || std::size_t(end) > connectivity.size())
+        refuse(file, "a polygon has fewer than three corners");
+      polygons.emplace_back(connectivity.begin() + begin, connectivity.begin() + end);
+      for (const unsigned int corner : polygons.back())
+        if (corner >= n_points)
+          refuse(file, "a polygon has a corner that is not there");
+      begin = end;
+    }
+    return polygons;
   }
 
   std::vector<std::array<unsigned int, 3>>

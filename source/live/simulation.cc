@@ -40,8 +40,8 @@ namespace Exemplar::Live
 
   Simulation::Simulation(Stage &stage, Mailbox &mailbox, Outbox outbox)
       : stage(stage), mailbox(mailbox), outbox(std::move(outbox)),
-        surface(stage.get_problem().body.mesh), hand(stage.get_problem(), surface),
-        pace(stage.get_step_size())
+        surface(stage.get_problem().body.mesh), obstacles(stage.get_problem()),
+        hand(stage.get_problem(), surface), pace(stage.get_step_size())
   {
   }
 
@@ -53,6 +53,8 @@ namespace Exemplar::Live
     const ExamplePoses &poses    = problem.examples.poses;
     for (unsigned int i = 0; i < poses.size(); ++i)
       binaries.push_back(frame_message({ BinaryKind::pose, i }, surface, poses.pose(i)));
+    for (const Bytes &bytes : obstacles.welcome(problem))
+      binaries.push_back(bytes);
     binaries.push_back(frame_message({}, surface, problem.state.positions));
     return { scene_text(stage, hand, surface), state_text(stage, hand, surface, wish), binaries };
   }
@@ -267,9 +269,10 @@ namespace Exemplar::Live
   Simulation::show_frame()
   {
     const State &state = stage.get_problem().state;
-    outbox.frame(frame_message(
-        { BinaryKind::frame, ++shown.n_frames, state.step, shown.pointer, state.time }, surface,
-        state.positions, colours()));
+    outbox.frame(obstacles.beside(frame_message({ BinaryKind::frame, ++shown.n_frames, state.step,
+                                                  shown.pointer, state.time },
+                                                surface, state.positions, colours()),
+                                  stage.get_problem()));
   }
 
   void

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 namespace Exemplar::Live
 {
@@ -85,11 +86,25 @@ namespace Exemplar::Live
           { { vertex[face.nodes[0]], vertex[face.nodes[1]], vertex[face.nodes[2]] } });
   }
 
+  BodySurface::BodySurface(const std::size_t                             n_vertices,
+                           const std::vector<std::vector<unsigned int>> &polygons)
+      : nodes(n_vertices)
+  {
+    std::iota(nodes.begin(), nodes.end(), 0U);
+    for (const auto &polygon : polygons)
+    {
+      for (std::size_t k = 2; k < polygon.size(); ++k)
+        triangles.push_back({ { polygon[0], polygon[k - 1], polygon[k] } });
+      if (polygon.size() == 3)
+        triangles.push_back({ { polygon[0], polygon[2], polygon[1] } });
+    }
+  }
+
   Bytes
-  topology_message(const BodySurface &surface)
+  topology_message(const BodySurface &surface, const BinaryKind kind)
   {
     std::string bytes;
-    append(bytes, static_cast<std::uint32_t>(BinaryKind::topology));
+    append(bytes, static_cast<std::uint32_t>(kind));
     append(bytes, static_cast<std::uint32_t>(surface.nodes.size()));
     append(bytes, static_cast<std::uint32_t>(surface.triangles.size()));
     for (const auto &triangle : surface.triangles)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/live/obstacle_frames.h>
 #include <exemplar/live/told.h>
 #include <exemplar/run/output/weight_names.h>
 
@@ -131,6 +132,7 @@ namespace Exemplar::Live
           { "name", std::filesystem::path(parameters.name).stem().string() },
           { "step_size", stage.get_step_size() },
           { "diameter", problem.body.mesh.diameter() },
+          { "floor", Floor(problem).level ? Json(*Floor(problem).level) : Json() },
           { "cells", problem.body.mesh.n_cells() },
           { "vertices", surface.nodes.size() },
           { "triangles", surface.triangles.size() },

@@ -5,6 +5,7 @@ import { Body } from "./body.js";
 import { Camera } from "./camera.js";
 import { Ground } from "./ground.js";
 import { Marks } from "./marks.js";
+import { Obstacles } from "./obstacles.js";
 
 // Colours are those of style.css.
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
@@ -22,6 +23,7 @@ export class View {
     this.ground = new Ground(this.renderer);
     this.scene.add(this.sky, this.light, this.light.target, this.marks.group, this.marks.spring, this.ground.group);
     this.body = null;
+    this.obstacles = null;
     this.wantsGround = true;
     const dark = matchMedia("(prefers-color-scheme: dark)");
     dark.addListener(() => this.takeColours());
@@ -61,8 +63,11 @@ export class View {
     this.renderer.render(this.scene, this.eye.camera);
   }
 
-  // Which way is up, before there is a body.
-  setScene({ gravity }) {
+  // Which way is up, and where a floor is, before there is a body.
+  setScene({ gravity, floor }) {
+    this.floor = floor;
+    this.obstacles && this.scene.remove(this.obstacles.mesh);
+    this.obstacles = null;
     const down = new THREE.Vector3().fromArray(gravity);
     this.eye.setUp(down.length() > 0 ? down.normalize().negate() : new THREE.Vector3(0, 0, 1));
     this.sky.position.copy(this.eye.up);
@@ -76,6 +81,11 @@ export class View {
     this.hasPlace = false;
   }
 
+  setObstacles(topology) {
+    this.obstacles = new Obstacles(topology, colour("obstacle"));
+    this.scene.add(this.obstacles.mesh);
+  }
+
   setPlaces(places) {
     this.body.setPlaces(places);
     this.ground.isOld = true;
@@ -84,7 +94,7 @@ export class View {
     this.hasPlace = true; // as the body was at the beginning
     const { radius } = this.sphere();
     this.spacing = 0.07 * radius;
-    this.ground.place(this.body.geometry, this.eye.up);
+    this.ground.place(this.body.geometry, this.eye.up, this.floor);
     this.ground.group.visible = this.wantsGround;
     this.look("home", true);
   }
@@ -158,8 +168,8 @@ export class View {
     const before = Float32Array.from(this.body.places);
     const { camera } = this.eye;
     const kept = { position: camera.position.clone(), target: this.controls.target.clone(), aspect: camera.aspect };
-    for (const part of [this.marks.group, this.ground.group])
-      part.visible = false;
+    const besides = [this.marks.group, this.ground.group, ...(this.obstacles ? [this.obstacles.mesh] : [])];
+    besides.forEach((part) => (part.visible = false));
     for (const { places, canvas } of poses) {
       this.body.setPlaces(places);
       this.renderer.setSize(canvas.width, canvas.height, false);
@@ -174,7 +184,7 @@ export class View {
     camera.position.copy(kept.position);
     this.controls.target.copy(kept.target);
     this.controls.update();
-    this.marks.group.visible = true;
+    besides.forEach((part) => (part.visible = true));
     this.ground.group.visible = this.wantsGround;
     this.ground.isOld = true;
     this.resize();

@@ -36,7 +36,7 @@ namespace Exemplar
     ObstacleShape
     make_shape(const ObstacleParameters &parameters, const ObstacleSurface *surface)
     {
-      if (surface == nullptr)
+      if (parameters.surface_file().empty())
         return parse_shape(parameters.shape, "Obstacles/" + parameters.name + "/Shape");
       return shape_of(TriangleSurface{ surface->vertices, surface->triangles, {} });
     }
@@ -88,6 +88,9 @@ namespace Exemplar
   {
     if (surface == nullptr)
       return;
+    track.track = surface->track;
+    if (!own_shape.is_surface())
+      return;
     refuse_crossings(own_shape, "Obstacles/" + called + "/Shape");
     if (surface->times.empty())
       return;
@@ -110,8 +113,16 @@ namespace Exemplar
   ObstaclePose
   Obstacle::pose(const double time) const
   {
-    return { rotation_by(turn.vector({}, time)),
-             own_shape.middle + shift + motion.vector({}, time) };
+    if (track.track.times.empty())
+      return { rotation_by(turn.vector({}, time)),
+               own_shape.middle + shift + motion.vector({}, time) };
+    const RigidTrack::Frame    frame = track.track.at(time);
+    const SpaceVector3         displacement({ frame[0], frame[1], frame[2] });
+    const dealii::Tensor<2, 3> rotation
+        = rotation_by(SpaceVector3({ frame[3], frame[4], frame[5] }));
+    const SpaceVector3 &middle = own_shape.middle;
+    return { rotation,
+             shift + displacement + (track.track.is_of_space ? rotation * middle : middle) };
   }
 
   std::vector<SpaceVector3>

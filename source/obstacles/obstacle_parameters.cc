@@ -31,6 +31,12 @@ namespace Exemplar
         "Places of the vertices of a surface in time: a .mdd or .pc2 file, or a sequence of "
         "surfaces such as rig_*.obj, in the unit of the mesh file. Instead of Motion and "
         "Turn.");
+    keys.add_file(
+        "Follow track", follow_track,
+        "A rigid motion in frames: a file of lines of t [s], a displacement and a rotation vector "
+        "[rad], as Motion and Turn have them, or of t and the three rows of a matrix (R p), which "
+        "takes x to R x + p; lengths in the unit of the mesh file. Linear between frames, at rest "
+        "before the first and after the last. Instead of Motion and Turn.");
     keys.add("Frames per second", frames_per_second, "Of a cache that counts in frames.",
              Bounds::positive());
     keys.add("Friction", friction, "Coefficient of Coulomb's friction.");
@@ -58,9 +64,15 @@ namespace Exemplar
       throw UserError(key + "/Friction = " + shortest_text(friction)
                       + " is not allowed. Allowed: 0 or more.");
     const ObstacleParameters usual;
-    if (!follow_cache.empty() && (motion != usual.motion || turn != usual.turn))
-      throw UserError(key + "/Follow cache and " + key
-                      + (motion != usual.motion ? "/Motion" : "/Turn")
+    std::vector<std::string> movers; // the keys that say where it goes
+    for (const auto &[mover, given] : { std::pair("/Follow cache", !follow_cache.empty()),
+                                        std::pair("/Follow track", !follow_track.empty()),
+                                        std::pair(motion != usual.motion ? "/Motion" : "/Turn",
+                                                  motion != usual.motion || turn != usual.turn) })
+      if (given)
+        movers.push_back(key + mover);
+    if (movers.size() > 1)
+      throw UserError(movers[0] + " and " + movers[1]
                       + " are both given, but only one of them can say where the obstacle goes. "
                         "Remove one of them.");
     if (until != "end" && !std::isfinite(parse_number(until)))

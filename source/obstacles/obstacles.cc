@@ -16,10 +16,12 @@ namespace Exemplar
     for (const ObstacleParameters &obstacle : parameters.named)
     {
       const auto surface = surfaces.find(obstacle.name);
-      if (surface == surfaces.end() && !obstacle.surface_file().empty())
-        throw UserError("Obstacles/" + obstacle.name
-                        + "/Shape: its surface is not among the inputs. Read it from its file, or "
-                          "hand it in.");
+      if (surface == surfaces.end()
+          && !(obstacle.surface_file().empty() && obstacle.follow_track.empty()))
+        throw UserError(
+            "Obstacles/" + obstacle.name
+            + ": its surface or track is not among the inputs. Read it from its file, or "
+              "hand it in.");
       all.emplace_back(obstacle, surface == surfaces.end() ? nullptr : &surface->second);
     }
   }

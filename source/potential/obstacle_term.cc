@@ -20,17 +20,26 @@ namespace Exemplar
                              const Material       &material,
                              const Vector         &rest_positions,
                              const TimeIntegrator *integrator)
-      : obstacles(obstacles), surface(surface), material(material),
-        have_friction(obstacles.have_friction()), integrator(integrator),
-        sums_of(obstacles.all.size()), has_appeared(obstacles.all.size(), 0),
-        kept(obstacles.all.size()), least_gap(obstacles.width)
+      : obstacles(obstacles), surface(surface), material(material), integrator(integrator),
+        least_gap(obstacles.width)
   {
-    for (const Obstacle &obstacle : obstacles.all)
-      standing.emplace_back(obstacle);
-    move_to(0.);
     follow_parameters();
     if (integrator == nullptr && obstacles.free != FreeBodies::refused)
       springs.emplace(obstacles.free, obstacles.diameter, this->surface, rest_positions);
+  }
+
+  void
+  ObstacleTerm::follow_obstacles()
+  {
+    have_friction = obstacles.have_friction();
+    sums_of.resize(obstacles.all.size());
+    has_appeared.resize(obstacles.all.size(), 0);
+    kept.assign(obstacles.all.size(), {});
+    step = {};
+    standing.clear();
+    for (const Obstacle &obstacle : obstacles.all)
+      standing.emplace_back(obstacle);
+    move_to(time);
   }
 
   void
@@ -51,6 +60,8 @@ namespace Exemplar
   void
   ObstacleTerm::follow_parameters()
   {
+    if (standing.size() != obstacles.all.size())
+      follow_obstacles();
     surface.set_material(material);
   }
 
@@ -587,6 +598,8 @@ namespace Exemplar
   {
     archive >> has_appeared >> sums_of >> barrier_energy >> least_gap >> n_pairs
         >> force_of_springs;
+    sums_of.resize(standing.size()); // some obstacles may have been added since
+    has_appeared.resize(standing.size(), 0);
   }
 
   std::size_t

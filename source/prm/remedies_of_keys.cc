@@ -113,7 +113,8 @@ namespace Exemplar
                               ? ". "
                               : "; what Names lists has keys of its own, in a subsection "
                                 "each, such as "
-                                    + section + "/NAME/Select"
+                                    + section
+                                    + (section == "Obstacles" ? "/NAME/Shape" : "/NAME/Select")
                                     + (section == "Loads" ? " and Loads/NAME/Force. "
                                                           : " and " + section + "/NAME/Motion. "));
     }

@@ -38,8 +38,9 @@ namespace Exemplar
       all_cases(const unsigned int n_processes)
       {
         std::vector<Case> all;
-        for (const auto &subject : { kernel_cases, derivative_cases, static_cases, beam_cases,
-                                     space_cases, dynamic_cases, balance_cases, example_cases })
+        for (const auto &subject :
+             { kernel_cases, derivative_cases, static_cases, beam_cases, space_cases, dynamic_cases,
+               balance_cases, example_cases, contact_cases })
           for (Case &one : subject())
             all.push_back(std::move(one));
         if (n_processes > 1)

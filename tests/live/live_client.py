@@ -75,7 +75,9 @@ class Frame:
     def __init__(self, data):
         (self.kind, self.number, self.step, self.pointer, self.time, *box, n, self.has_colours, self.low,
          self.high) = struct.unpack_from("<4Id6f2I2f", data)
-        self.box, self.colours, self._shorts = box, data[64 + 6 * n:], data[64:64 + 6 * n]
+        end = 64 + (7 if self.has_colours else 6) * n
+        self.box, self.colours, self._shorts = box, data[64 + 6 * n:end], data[64:64 + 6 * n]
+        self.obstacles = Frame(data[end:]) if data[end:] else None
 
     @functools.cached_property
     def places(self):
@@ -91,9 +93,9 @@ class Viewer:
         if status != 101:
             raise Closed(status)
         self.buffer = b""
-        self.texts, self.frames, self.poses = [], [], []
+        self.texts, self.frames, self.poses, self.obstacles = [], [], [], []
         self.n_bytes, self.acknowledges = 0, True
-        self.triangles = None
+        self.triangles = self.triangles_of_obstacles = None
         self.until(lambda: self.frames and any(text["type"] == "mouse" for text in self.texts))
         self.scene = next(text for text in self.texts if text["type"] == "scene")
 
@@ -146,12 +148,16 @@ class Viewer:
 
     def _take_binary(self, data):
         kind, n, m = struct.unpack_from("<3I", data)
-        if kind == 0:
+        if kind in (0, 3):
             flat = struct.unpack_from(f"<{3 * m}I", data, 12)
-            self.triangles = [flat[i:i + 3] for i in range(0, 3 * m, 3)]
+            triangles = [flat[i:i + 3] for i in range(0, 3 * m, 3)]
+            if kind == 0:
+                self.triangles = triangles
+            else:
+                self.triangles_of_obstacles = triangles
             return None
         frame = Frame(data)
-        (self.poses if kind == 2 else self.frames).append(frame)
+        {1: self.frames, 2: self.poses, 4: self.obstacles}[kind].append(frame)
         if frame.kind == 1 and frame.number and self.acknowledges:
             self.send_raw(f"ack {frame.number}".encode())
         return frame

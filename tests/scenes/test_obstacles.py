@@ -103,6 +103,13 @@ class Obstacles(ObstacleTest):
         rows = read_csv(output.output)
         self.assertLess(max(row["energy_kinetic"] for row in rows), 0.5)
 
+    def test_only_what_neither_moves_nor_falls_is_told_that_nothing_will_happen(self):
+        still = {**BAR, "Loads/Gravity": None, "Time/End": "0.02"}
+        for more, expected in (({}, True), ({"Obstacles/floor/Motion": "0; 0; 0.1*t"}, False), ({"Loads/Gravity": "0, 0, -1"}, False)):
+            with self.subTest(more):
+                run = self.attempt({**still, **more})
+                self.assertEqual((run.status, "nothing will happen" in run.stdout), (0, expected), run.stdout)
+
     def test_frames_show_forces_and_pressures(self):
         output = self.solve({**BAR, "Time/End": "0.16", "Output/Every": "16"})
         arrays = read_vtu(output / "frame_0016.vtu")[0]
@@ -246,6 +253,7 @@ class Refused(BadInputTest):
         ({"Obstacles/floor/Shape": "surface across.obj"}, "The body begins inside of Obstacles/floor"),
         ({"Obstacles/floor/Shape": "surface crossing.obj"}, "intersects itself near"),
         ({"Obstacles/floor/Friction": "-0.1"}, "Obstacles/floor/Friction = -0.1 is not allowed"),
+        ({"Obstacles/Sheep": "1"}, "a subsection each, such as Obstacles/NAME/Shape and Obstacles/NAME/Motion."),
         ({"Obstacles/Names": "floor, floor"}, "lists 'floor' twice"),
         ({"Obstacles/Distance": "1"}, "above a tenth of the body's diameter"),
         ({"Obstacles/Distance": "1e-9"}, "below a millionth"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steps 4 to 6 of doc/tutorial show what their pages say."""
+"""Steps 4 to 6 and 10 of doc/tutorial show what their pages say."""
 
 import json
 import unittest
@@ -110,6 +110,23 @@ class TutorialDynamics(Tutorial):
                 self.assertAlmostEqual(error / other, 1, delta=0.03)
         for error, other in zip(self.orders(rows, Method="one pass")[0], newton):
             self.assertGreater(error, other)
+
+    @shows("step10_slide", "step10_friction")
+    def test_friction_makes_the_bar_slide_less(self):
+        rows = self.study("step10_friction")
+        by = {float(row["Obstacles/slope/Friction"]): row for row in rows}
+        for friction, row in by.items():
+            slides = max(0, 0.5 - friction) / 1.25 ** 0.5 * 9.81
+            self.assertAlmostEqual(float(row["momentum_x"]) / 8, slides, delta=0.02 * 9.81, msg=friction)
+            self.assertAlmostEqual(float(row["probe_x"]), slides / 2 * 1.01, delta=0.03, msg=friction)
+        self.assertEqual(float(by[0]["heat_friction"] or 0), 0)
+
+    @shows("step10_distance")
+    def test_a_smaller_distance_errs_less(self):
+        rows = self.study("step10_distance", "Time/End=0.3")
+        errors = self.numbers(rows, "error_position_l2")
+        self.assert_grows(errors[::-1])
+        self.assertGreater(min(self.numbers(rows, "least_gap")), 0)
 
     @shows("step6_creature")
     def test_the_creature_crouches_and_reaches(self):

@@ -14,6 +14,7 @@ namespace Exemplar::Live
   {
     double                time; ///< [s]
     std::filesystem::path file;
+    std::filesystem::path obstacles = {}; ///< the file that shows them; empty: none
   };
 
   /// The frames of the animation in the output directory of a run. Throws UserError unless it has
@@ -25,6 +26,10 @@ namespace Exemplar::Live
   /// that no run has written.
   std::vector<double>
   places_in(const std::filesystem::path &file);
+
+  /// The polygons in a frame of obstacles, by their points.
+  std::vector<std::vector<unsigned int>>
+  polygons_in(const std::filesystem::path &file);
 
   /// The boundary of the cells in a frame: the three nodes of each triangle, counterclockwise from
   /// outside.

@@ -4,6 +4,7 @@
 
 #include <exemplar/live/hand.h>
 #include <exemplar/live/mailbox.h>
+#include <exemplar/live/obstacle_frames.h>
 #include <exemplar/live/pace.h>
 #include <exemplar/live/stage.h>
 #include <exemplar/live/told.h>
@@ -105,6 +106,7 @@ namespace Exemplar::Live
     Mailbox                &mailbox;
     const Outbox            outbox;
     const BodySurface       surface;
+    ObstacleFrames          obstacles;
     Hand                    hand;
     std::vector<Hand::Held> held_before; ///< one for each moment that the stage keeps
     Pace                    pace;

@@ -18,9 +18,11 @@ namespace Exemplar::Live
   /// The kind of a binary message: its first number.
   enum class BinaryKind : std::uint32_t
   {
-    topology = 0,
-    frame    = 1,
-    pose     = 2 ///< an example pose, as a frame with its number
+    topology              = 0,
+    frame                 = 1,
+    pose                  = 2, ///< an example pose, as a frame with its number
+    topology_of_obstacles = 3,
+    obstacles             = 4 ///< where they are, as a frame; alone, or at the end of the body's
   };
 
   /// The boundary of a body, with its own numbering of vertices.
@@ -30,6 +32,10 @@ namespace Exemplar::Live
 
     explicit BodySurface(const Mesh &mesh);
 
+    /// Of polygons, as pictures of obstacles have them. What is a triangle already, as of an open
+    /// surface, is seen from both sides.
+    BodySurface(std::size_t n_vertices, const std::vector<std::vector<unsigned int>> &polygons);
+
     std::vector<unsigned int>                nodes;     ///< mesh node of each vertex, ascending
     std::vector<std::array<unsigned int, 3>> triangles; ///< counterclockwise from outside
   };
@@ -37,7 +43,7 @@ namespace Exemplar::Live
   /// The topology message: kind, numbers of vertices and triangles, and the three vertices of each
   /// triangle, as 32-bit integers.
   Bytes
-  topology_message(const BodySurface &surface);
+  topology_message(const BodySurface &surface, BinaryKind kind = BinaryKind::topology);
 
   /// The head of a frame.
   struct FrameHead

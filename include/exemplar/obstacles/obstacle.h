@@ -4,6 +4,7 @@
 
 #include <exemplar/obstacles/obstacle_parameters.h>
 #include <exemplar/obstacles/obstacle_shape.h>
+#include <exemplar/obstacles/rigid_track.h>
 #include <exemplar/prm/expression.h>
 
 #include <deal.II/base/tensor.h>
@@ -15,19 +16,21 @@
 
 namespace Exemplar
 {
-  /// A surface that is an obstacle [m], and the places of its vertices in time, if it follows a cache.
+  /// What files say of an obstacle: a surface [m], if it is one, the places of its vertices in time, if it follows a
+  /// cache, and how it moves, if it follows a track.
   struct ObstacleSurface
   {
     std::vector<std::array<double, 3>>       vertices;
     std::vector<std::array<unsigned int, 3>> triangles;
     std::vector<double> times; ///< [s], ascending; empty: it does not move by itself
     std::vector<std::vector<std::array<double, 3>>> samples; ///< vertices at these times [m]
+    RigidTrack                                      track;
 
     template <typename Archive>
     void
     serialize(Archive &archive, unsigned int /*version*/)
     {
-      archive &vertices &triangles &times &samples;
+      archive &vertices &triangles &times &samples &track;
     }
   };
 
@@ -57,7 +60,7 @@ namespace Exemplar
   class Obstacle
   {
   public:
-    /// `surface` is null unless the shape is one. Throws UserError for a shape or formulas that are none, and for a
+    /// `surface` is null unless the shape is one or files tell how it moves. Throws UserError for a shape or formulas that are none, and for a
     /// surface that intersects itself.
     Obstacle(const ObstacleParameters &parameters, const ObstacleSurface *surface);
 
@@ -148,7 +151,7 @@ namespace Exemplar
     HoldingTime     when;
     ObstacleShape   own_shape;
     Expression      motion, turn;
-    ObstacleSurface track; ///< its times and samples alone
+    ObstacleSurface track; ///< what it follows: without the surface
     SpaceVector3    shift;
     unsigned int    n_set_back = 0;
   };

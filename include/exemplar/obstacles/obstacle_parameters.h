@@ -17,6 +17,7 @@ namespace Exemplar
     std::string motion = "0; 0; 0";        ///< displacement by t [m]
     std::string turn   = "0; 0; 0";        ///< rotation vector by t [rad]
     std::string follow_cache;              ///< of the vertices of a surface; empty: none
+    std::string follow_track;              ///< a file of a rigid motion; empty: none
     double      frames_per_second = 24.;   ///< of the cache
     double      friction          = 0.;    ///< coefficient [-]
     double      from              = 0.;    ///< [s]

@@ -220,6 +220,10 @@ namespace Exemplar
     std::optional<Rubbing>
     rubbing_of(const Contact &contact) const;
 
+    /// Know the obstacles, of which there may be more than before.
+    void
+    follow_obstacles();
+
     /// What would rub at these positions.
     std::vector<Rubbing>
     rubbing_at(const Vector &positions) const;
@@ -266,7 +270,7 @@ namespace Exemplar
     const Obstacles              &obstacles;
     ContactSurface                surface; ///< with the shares of the material
     const Material               &material;
-    const bool                    have_friction;
+    bool                          have_friction = false;
     std::vector<StandingObstacle> standing;
     const TimeIntegrator         *integrator;
     Step                          step;

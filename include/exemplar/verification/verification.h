@@ -75,6 +75,8 @@ namespace Exemplar
     balance_cases();
     std::vector<Case>
     example_cases();
+    std::vector<Case>
+    contact_cases();
 
     /// Cases that need several processes.
     std::vector<Case>

@@ -19,7 +19,7 @@ namespace Exemplar
     class CarriedVtuWriter : public FrameWriter
     {
     public:
-      CarriedVtuWriter(const SurfaceMesh &surface, const double scale)
+      CarriedVtuWriter(const SurfaceMesh &surface, const double scale, const bool shows_obstacles)
           : rest(surface.vertices), scale(scale),
             piece(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
                               surface.vertices.size(),
@@ -29,6 +29,12 @@ namespace Exemplar
                   return surface.faces[face];
                 }))
       {
+        const std::vector<std::int32_t> numbers(surface.face_groups.begin(),
+                                                surface.face_groups.end());
+        std::ostringstream              of_polygons;
+        write_array(of_polygons, "Int32", "obstacle", 1, numbers.data(), numbers.size());
+        if (shows_obstacles)
+          cell_data = "<CellData>\n" + of_polygons.str() + "</CellData>\n";
       }
 
       void
@@ -47,7 +53,7 @@ namespace Exemplar
         write_array(out, "Float64", "Points", 3, places.data(), places.size());
         out << "</Points>\n" << polygons << "<PointData>\n";
         write_array(out, "Float64", "displacement", 3, displacement.data(), displacement.size());
-        out << "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+        out << "</PointData>\n" << cell_data << "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
         atomic_file.commit_without_sync();
       }
 
@@ -62,12 +68,14 @@ namespace Exemplar
       const std::vector<SurfaceMesh::Vertex> rest;
       const double                           scale; ///< metres per unit of the file
       const std::string                      piece, polygons;
+      std::string                            cell_data; ///< which obstacle each polygon is of
     };
   } // namespace
 
   std::unique_ptr<const FrameWriter>
   make_carried_vtu_writer(const FrameSubject &subject)
   {
-    return std::make_unique<const CarriedVtuWriter>(*subject.surface, subject.mesh.get_scale());
+    return std::make_unique<const CarriedVtuWriter>(*subject.surface, subject.mesh.get_scale(),
+                                                    subject.carried == name_of_obstacles);
   }
 } // namespace Exemplar

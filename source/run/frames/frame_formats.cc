@@ -97,7 +97,7 @@ namespace Exemplar
                                const unsigned int n_processes,
                                const std::string &carried) const
   {
-    if (n_processes == 1)
+    if (n_processes == 1 || !carried.empty())
       return { frame_name(step, carried) };
     std::vector<std::string> names;
     for (unsigned int process = 0; process < n_processes; ++process)

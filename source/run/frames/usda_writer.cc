@@ -232,6 +232,10 @@ namespace Exemplar
         write_layer(atomic_file.stream(), "an animation", times,
                     [&](const std::size_t i, const std::string &attribute)
                     { return sample_in(frames[i].file, attribute); });
+        if (!frames.front().obstacles.empty())
+          atomic_file.stream() << "\ndef Xform \"obstacles\" (\n    references = @./"
+                               << file.stem().string() << '_' << name_of_obstacles
+                               << ".usda@\n)\n{\n}\n";
         atomic_file.commit();
       }
 

@@ -50,9 +50,17 @@ namespace Exemplar
     out << "<?xml version=\"1.0\"?>\n"
         << "<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
         << std::setprecision(12);
-    for (const auto &[time, frame] : frames)
-      out << "<DataSet timestep=\"" << time << "\" file=\"" << frame.filename().string()
+    const auto list = [&](const double time, const char *const part, const auto &of)
+    {
+      out << "<DataSet timestep=\"" << time << part << "\" file=\"" << of.filename().string()
           << "\"/>\n";
+    };
+    for (const auto &[time, frame, obstacles] : frames)
+    {
+      list(time, obstacles.empty() ? "" : "\" part=\"0", frame);
+      if (!obstacles.empty())
+        list(time, "\" part=\"1", obstacles);
+    }
     out << "</Collection>\n</VTKFile>\n";
     atomic_file.commit();
   }

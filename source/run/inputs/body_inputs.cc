@@ -35,6 +35,9 @@ namespace Exemplar
       multiply(surface.vertices);
       for (auto &sample : surface.samples)
         multiply(sample);
+      for (RigidTrack::Frame &frame : surface.track.frames)
+        for (unsigned int c = 0; c < 3; ++c)
+          frame[c] *= factor;
     }
 
     /// Fields of the whole body, with the readings off the surface, to whose warnings more are added. Moves the poses out

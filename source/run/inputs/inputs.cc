@@ -58,7 +58,8 @@ namespace Exemplar
         if (inputs.carried.empty())
           add_carried();
         for (const ObstacleParameters &obstacle : scene.obstacles.named)
-          if (!obstacle.surface_file().empty() && inputs.obstacles.count(obstacle.name) == 0)
+          if ((!obstacle.surface_file().empty() || !obstacle.follow_track.empty())
+              && inputs.obstacles.count(obstacle.name) == 0)
             inputs.obstacles[obstacle.name] = read_obstacle(obstacle);
         if (inputs.mesh.nodes.empty())
           inputs.mesh = is_to_be_filled(scene.mesh) ? surfaces.make_mesh() : load_mesh(scene.mesh);
@@ -169,28 +170,35 @@ namespace Exemplar
                     });
       }
 
-      /// The surface of an obstacle, with the samples of its cache.
+      /// What files say of an obstacle.
       static ObstacleSurface
       read_obstacle(const ObstacleParameters &obstacle)
       {
         const std::string key  = "Obstacles/" + obstacle.name;
         const std::string file = obstacle.surface_file();
-        return under_key(key + "/Shape",
-                         [&]
-                         {
-                           require_file(file, "a surface: an .obj, .ply or .stl file");
-                           const SurfaceMesh     mesh    = read_surface(file);
-                           const TriangleSurface surface = triangulate(mesh);
-                           ObstacleSurface result{ surface.vertices, surface.triangles, {}, {} };
-                           if (obstacle.follow_cache.empty())
-                             return result;
-                           const auto cache = open_point_cache(
-                               obstacle.follow_cache, obstacle.frames_per_second, mesh, file);
-                           result.times = cache->get_times();
-                           for (std::size_t k = 0; k < result.times.size(); ++k)
-                             result.samples.push_back(cache->sample(k));
-                           return result;
-                         });
+        ObstacleSurface   result;
+        if (!obstacle.follow_track.empty())
+          result.track = under_key(key + "/Follow track",
+                                   [&] { return read_rigid_track(obstacle.follow_track); });
+        if (file.empty())
+          return result;
+        under_key(key + "/Shape",
+                  [&]
+                  {
+                    require_file(file, "a surface: an .obj, .ply or .stl file");
+                    const SurfaceMesh     mesh    = read_surface(file);
+                    const TriangleSurface surface = triangulate(mesh);
+                    result.vertices               = surface.vertices;
+                    result.triangles              = surface.triangles;
+                    if (obstacle.follow_cache.empty())
+                      return;
+                    const auto cache = open_point_cache(obstacle.follow_cache,
+                                                        obstacle.frames_per_second, mesh, file);
+                    result.times     = cache->get_times();
+                    for (std::size_t k = 0; k < result.times.size(); ++k)
+                      result.samples.push_back(cache->sample(k));
+                  });
+        return result;
       }
 
       void

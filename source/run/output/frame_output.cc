@@ -62,6 +62,15 @@ namespace Exemplar
     all_shown.push_back(make_body());
     for (const CarriedSurface &carried : problem.body.carried)
       all_shown.push_back(make_carried(carried));
+    if (const Obstacles *const obstacles = problem.actions.obstacles.get())
+    {
+      for (const Shown &shown : all_shown)
+        if (shown.are_obstacles())
+          throw UserError("Mesh/Carry has a surface of the name 'obstacles', as files of the "
+                          "obstacles are called. Rename its file.");
+      picture.emplace(*obstacles, problem.body.mesh.diameter(), problem.body.mesh.get_scale());
+      all_shown.push_back({ name_of_obstacles, &picture->surface(), nullptr, {} });
+    }
     for (Shown &shown : all_shown)
       add_writers(shown);
   }
@@ -140,7 +149,8 @@ namespace Exemplar
   {
     if (problem.parameters.output.shows_surface())
       for (const Shown &shown : all_shown)
-        write_shapes_of(shown);
+        if (!shown.are_obstacles())
+          write_shapes_of(shown);
   }
 
   void
@@ -170,8 +180,10 @@ namespace Exemplar
   void
   FrameOutput::write(std::optional<SpaceError> space_error)
   {
-    Frame frame              = frame_of(problem);
-    frame.space_error        = std::move(space_error);
+    Frame frame       = frame_of(problem);
+    frame.space_error = std::move(space_error);
+    if (picture) // here, as formulas are of this thread
+      frame.obstacles = picture->places(*problem.actions.obstacles, frame.time, frame.positions);
     const Exchange &exchange = problem.body.exchange();
     do_in_agreement(exchange,
                     [&]
@@ -201,12 +213,15 @@ namespace Exemplar
     {
       if (shown.skin != nullptr)
         frame.surface = shown.skin->carry(frame.displacement);
+      if (shown.are_obstacles())
+        frame.surface = frame.obstacles;
       for (const auto &[format, writer] : shown.writers)
       {
         const auto pieces
             = format->names_of_pieces(frame.step, exchange.n_processes(), shown.carried);
-        directory.do_inside([&, &by = *writer]
-                            { by.write(frame, path / pieces[exchange.process()]); });
+        if (const std::size_t part = shown.are_obstacles() ? 0 : exchange.process();
+            part == exchange.process())
+          directory.do_inside([&, &by = *writer] { by.write(frame, path / pieces[part]); });
         const auto join
             = [&, &of = *format] { of.join(frame, pieces, path / of.joint_name(frame.step)); };
         if (pieces.size() > 1)
@@ -264,7 +279,11 @@ namespace Exemplar
     // every step, as Output/Every may have changed at a resume
     for (unsigned int step = 0; step <= problem.state.step; ++step)
       if (const fs::path file = file_of(format, step, carried); fs::exists(file))
-        frames.push_back({ problem.time_axis.time(step), file });
+      {
+        const fs::path beside = file_of(format, step, name_of_obstacles);
+        const bool     shown  = picture && carried.empty() && fs::exists(beside);
+        frames.push_back({ problem.time_axis.time(step), file, shown ? beside : fs::path() });
+      }
     return frames;
   }
 

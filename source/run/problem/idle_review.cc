@@ -52,6 +52,17 @@ namespace Exemplar
                          });
     }
 
+    bool
+    any_obstacle_moves(const Problem &problem)
+    {
+      const Obstacles *const obstacles = problem.actions.obstacles.get();
+      const TimeAxis        &axis      = problem.time_axis;
+      for (unsigned int step = 1; obstacles != nullptr && step <= axis.n_steps(); ++step)
+        if (obstacles->move_between(axis.time(step - 1), axis.time(step)))
+          return true;
+      return false;
+    }
+
     /// Whether the rest pose is an equilibrium with these examples.
     bool
     may_rest(const Examples &examples)
@@ -86,7 +97,8 @@ namespace Exemplar
     std::vector<std::string> notes = problem.actions.notes;
     if (problem.parameters.scene != SceneKind::interpolation && problem.actions.loads == nullptr
         && problem.parameters.session.empty() && may_rest(problem.examples)
-        && !problem.body.exchange().any(!is_at_rest(problem)) && !is_any_handle_moved(problem))
+        && !problem.body.exchange().any(!is_at_rest(problem)) && !is_any_handle_moved(problem)
+        && !any_obstacle_moves(problem))
       notes.push_back("nothing will happen: no handle moves, no load acts, and the body starts at "
                       "rest (Handles/NAME/Motion, Loads/Gravity, Loads/Names)");
     const ExampleWeights &weights = problem.examples.weights;

@@ -35,9 +35,10 @@ namespace Exemplar
                     const unsigned int    number,
                     const ContactSurface &surface,
                     const Body           &body,
-                    const Vector         &positions)
+                    const Vector         &positions,
+                    const double          time)
           : obstacles(obstacles), number(number), obstacle(obstacles.all[number]), surface(surface),
-            body(body), positions(positions), diameter(body.mesh.diameter())
+            body(body), positions(positions), time(time), diameter(body.mesh.diameter())
       {
       }
 
@@ -66,7 +67,7 @@ namespace Exemplar
       keep_widths()
       {
         StandingObstacle standing(obstacle);
-        standing.move_to(0.);
+        standing.move_to(time);
         auto                                       &widths = obstacles.start_widths[number];
         std::vector<std::pair<PairKey, StartWidth>> found;
         ContactSearch(surface, obstacles, standing, number)
@@ -86,7 +87,7 @@ namespace Exemplar
       look() const
       {
         StandingObstacle standing(obstacle);
-        standing.move_to(0.);
+        standing.move_to(time);
         return clearance(surface, obstacles, standing, number, positions,
                          std::max(obstacles.width, inside_touch * diameter), body.exchange());
       }
@@ -126,7 +127,7 @@ namespace Exemplar
                           + ". Move the obstacle (Shape), or the body (Initial/Pose), so that "
                             "they do not meet.");
         StandingObstacle standing(obstacle);
-        standing.move_to(0.);
+        standing.move_to(time);
         // along the gradient of the distance there
         SpaceVector3        way;
         const ContactSearch search(surface, obstacles, standing, number);
@@ -155,6 +156,7 @@ namespace Exemplar
       const ContactSurface &surface;
       const Body           &body;
       const Vector         &positions;
+      const double          time;
       const double          diameter;
     };
   } // namespace
@@ -191,13 +193,14 @@ namespace Exemplar
                  const ContactSurface     &surface,
                  const Body               &body,
                  const Vector             &positions,
+                 const double              time,
                  std::vector<std::string> &notes)
   {
     for (unsigned int i = 0; i < obstacles.all.size(); ++i)
     {
-      if (!obstacles.all[i].is_there(0.))
+      if (!obstacles.all[i].is_there(time))
         continue;
-      ObstacleStart start(obstacles, i, surface, body, positions);
+      ObstacleStart start(obstacles, i, surface, body, positions, time);
       if (const std::string done = start.set_back(); !done.empty())
         notes.push_back(done);
       start.keep_widths();

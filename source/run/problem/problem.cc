@@ -85,7 +85,7 @@ namespace Exemplar
     {
       check_obstacle_motions(*actions.obstacles, body, time_axis);
       suit_obstacles(*actions.obstacles, *actions.contact_surface, body, state.positions,
-                     actions.notes);
+                     0., actions.notes);
     }
     state.history = cells.get_field().get_batches().history();
     start(state);

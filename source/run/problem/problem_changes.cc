@@ -2,6 +2,8 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/potential/load_term.h>
+#include <exemplar/potential/obstacle_term.h>
+#include <exemplar/run/problem/obstacle_start.h>
 #include <exemplar/run/problem/problem.h>
 
 #include <fmt/core.h>
@@ -24,7 +26,8 @@ namespace Exemplar
       new_handles    = 8,
       new_loads      = 16,
       new_terms      = 32,
-      new_damping    = 64
+      new_damping    = 64,
+      new_obstacles  = 128
     };
 
     void
@@ -58,13 +61,15 @@ namespace Exemplar
       if (lab != nullptr)
         lab->follow_parameters();
     }
-    if (changed & new_terms)
+    if (changed & new_obstacles)
+      potential.follow_parameters();
+    if (changed & (new_terms | new_obstacles))
       lab.reset();
     if (changed & (new_handles | new_terms))
       potential.get_tangent().renew_pattern();
     if (changed & ~new_loads)
       solver->forget(); // its memory is of another matrix
-    if (changed & (new_energy | new_loads | new_terms))
+    if (changed & (new_energy | new_loads | new_terms | new_obstacles))
       start(state);
   }
 
@@ -166,6 +171,39 @@ namespace Exemplar
     changes.count("add_term()");
     actions.own_terms.push_back({ make, term.get() });
     potential.add_term(std::move(term));
+    refresh(new_terms);
+  }
+
+  void
+  Problem::add_obstacle(const ObstacleParameters &obstacle, const ObstacleSurface &surface)
+  {
+    CompleteScene changed = parameters;
+    for (const ObstacleParameters &other : changed.obstacles.named)
+      if (other.name == obstacle.name)
+        throw UserError("There is an obstacle of the name '" + obstacle.name
+                        + "' already. Give another name.");
+    changed.obstacles.named = { obstacle };
+    changed.check_obstacles();
+    // apart from the others, so that nothing is changed if it is refused
+    auto added = std::make_unique<Obstacles>(changed.obstacles, body.mesh.diameter(),
+                                             ObstacleSurfaces{ { obstacle.name, surface } });
+    if (actions.contact_surface == nullptr)
+      actions.contact_surface = std::make_unique<ContactSurface>(body.mesh, body.fe_space);
+    check_obstacle_motions(*added, body, time_axis);
+    suit_obstacles(*added, *actions.contact_surface, body, state.positions, state.time,
+                   actions.notes);
+    changes.count("add_obstacle()");
+    parameters.obstacles.named.push_back(obstacle);
+    if (actions.obstacles != nullptr)
+    {
+      actions.obstacles->all.push_back(std::move(added->all[0]));
+      actions.obstacles->start_widths.push_back(std::move(added->start_widths[0]));
+      refresh(new_obstacles);
+      return;
+    }
+    actions.obstacles = std::move(added);
+    potential.add_term(std::make_unique<ObstacleTerm>(*actions.obstacles, *actions.contact_surface,
+                                                      body.material));
     refresh(new_terms);
   }
 

@@ -35,6 +35,9 @@ namespace Exemplar
     std::string        carried  = {}; ///< name of the surface, if it is one of Mesh/Carry
   };
 
+  /// The name, as of a carried surface, of the obstacles' in their files.
+  inline const std::string name_of_obstacles = "obstacles";
+
   /// A file format of frames.
   struct FrameFormat
   {

@@ -27,6 +27,7 @@ namespace Exemplar
     /// Positions of the vertices of the body's surface in the unit of its file; empty unless a
     /// format shows it.
     std::vector<SurfaceMesh::Vertex> surface     = {};
+    std::vector<SurfaceMesh::Vertex> obstacles   = {}; ///< the same of theirs, ObstaclePicture
     std::optional<SpaceError>        space_error = {};
     std::vector<NodalField>          fields      = {}; ///< of the potential's terms
   };
@@ -36,6 +37,7 @@ namespace Exemplar
   {
     double                time; ///< [s]
     std::filesystem::path file;
+    std::filesystem::path obstacles = {}; ///< the file that shows them; empty: none
   };
 
   /// Writes frames of one mesh in one format.

@@ -3,6 +3,7 @@
 #define exemplar_frame_output_h
 
 #include <exemplar/base/background_writer.h>
+#include <exemplar/obstacles/obstacle_picture.h>
 #include <exemplar/run/frames/frame_formats.h>
 #include <exemplar/run/frames/frame_writer.h>
 #include <exemplar/run/output/run_directory.h>
@@ -77,6 +78,13 @@ namespace Exemplar
       const SurfaceMesh                 *surface; ///< null if no format shows the body's surface
       std::unique_ptr<const SurfaceSkin> skin;    ///< interpolates the surface; null likewise
       std::vector<Writer>                writers; ///< of the formats in use; empty without frames
+
+      /// Whether these are the obstacles, which all processes know and one shows.
+      bool
+      are_obstacles() const
+      {
+        return carried == name_of_obstacles;
+      }
     };
 
     Shown
@@ -107,7 +115,7 @@ namespace Exemplar
     std::filesystem::path
     file_of(const FrameFormat &format, unsigned int step, const std::string &carried) const;
 
-    /// The frames on disk, in order of time.
+    /// The frames on disk, in order of time, of a body with the obstacles beside it.
     std::vector<WrittenFrame>
     written_frames(const FrameFormat &format, const std::string &carried) const;
 
@@ -115,8 +123,9 @@ namespace Exemplar
     const RunDirectory             &directory;
     const std::vector<FrameFormat> &formats;
 
-    std::vector<Shown> all_shown;  ///< the body, then carried surfaces
-    BackgroundWriter   background; ///< last, as its jobs use the others
+    std::optional<ObstaclePicture> picture;    ///< of obstacles, if there are any
+    std::vector<Shown>             all_shown;  ///< the body, carried surfaces, obstacles
+    BackgroundWriter               background; ///< last, as its jobs use the others
   };
 } // namespace Exemplar
 

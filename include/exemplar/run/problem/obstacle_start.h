@@ -10,7 +10,7 @@ namespace Exemplar
   void
   check_obstacle_motions(const Obstacles &obstacles, const Body &body, const TimeAxis &axis);
 
-  /// Let the obstacles suit a body that begins at these positions: what touches it is set back, of which `notes` tell,
+  /// Let the obstacles suit a body that begins at these positions and at this time [s]: what touches it is set back, of which `notes` tell,
   /// and pairs that begin nearer than the distance from which obstacles push keep their own. Throws UserError for a body
   /// that begins inside of one. All processes must call this.
   void
@@ -18,6 +18,7 @@ namespace Exemplar
                  const ContactSurface     &surface,
                  const Body               &body,
                  const Vector             &positions,
+                 double                    time,
                  std::vector<std::string> &notes);
 } // namespace Exemplar
 

@@ -99,6 +99,12 @@ namespace Exemplar
     void
     add_term(const MakeTerm &make);
 
+    /// Between steps, add an obstacle, with what files would say of it. What touches it now stands, as
+    /// at the beginning of a scene. Throws UserError, with nothing changed, as the scene's obstacles
+    /// are refused, and for a name that one has. All processes must call this.
+    void
+    add_obstacle(const ObstacleParameters &obstacle, const ObstacleSurface &surface = {});
+
     /// The potential at arbitrary arguments, for use between steps; made at the first call. Throws
     /// UserError if several processes share the body.
     Laboratory &

@@ -159,8 +159,8 @@ namespace Exemplar
     std::unique_ptr<Loads>                loads;
     const std::unique_ptr<Mass>           mass;       ///< in dynamic scenes
     const std::unique_ptr<TimeIntegrator> integrator; ///< in dynamic scenes
-    const std::unique_ptr<Obstacles>      obstacles;
-    const std::unique_ptr<ContactSurface> contact_surface;  ///< with obstacles
+    std::unique_ptr<Obstacles>            obstacles;
+    std::unique_ptr<ContactSurface>       contact_surface;  ///< with obstacles
     PointStresses                         initial_stresses; ///< empty unless the body is balanced
     std::vector<OwnTerm>                  own_terms;        ///< in order of addition
     std::vector<std::string>              warnings;         ///< of all but own_terms

@@ -82,6 +82,10 @@ namespace Exemplar
     /// can exclude.
     CompleteScene(SceneParameters scene);
 
+    /// Throws UserError for obstacles that are none, and for what has no place beside any.
+    void
+    check_obstacles() const;
+
   private:
     void
     complete();
@@ -102,9 +106,6 @@ namespace Exemplar
 
     void
     check_solver() const;
-
-    void
-    check_obstacles() const;
 
     /// Throws UserError for what needs the surface that the scene does not name.
     void

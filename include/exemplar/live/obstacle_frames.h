@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_live_obstacle_frames_h
+#define exemplar_live_obstacle_frames_h
+
+#include <exemplar/live/surface_frames.h>
+#include <exemplar/obstacles/obstacle_picture.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Exemplar::Live
+{
+  /// Where the ground of a scene's page is along the axis against gravity [m]: at the first obstacle that is a half space
+  /// across it and stays there; nothing without one.
+  struct Floor
+  {
+    explicit Floor(const Problem &problem);
+
+    std::optional<double>       level;
+    std::optional<unsigned int> obstacle; ///< its number
+  };
+
+  /// Messages about a scene's obstacles, but for the floor, which is drawn as the ground; none without.
+  class ObstacleFrames
+  {
+  public:
+    explicit ObstacleFrames(const Problem &problem);
+
+    /// Their surface, and where they are.
+    std::vector<Bytes>
+    welcome(const Problem &problem) const;
+
+    /// A frame, and where obstacles are then, once they have moved.
+    Bytes
+    beside(const Bytes &frame, const Problem &problem);
+
+  private:
+    Bytes
+    message(const Problem &problem, const std::vector<SurfaceMesh::Vertex> &places) const;
+
+    std::vector<SurfaceMesh::Vertex>
+    places(const Problem &problem) const;
+
+    std::optional<ObstaclePicture>   picture;
+    BodySurface                      surface;
+    std::vector<SurfaceMesh::Vertex> at_start;
+    bool                             have_moved = false;
+  };
+} // namespace Exemplar::Live
+
+#endif

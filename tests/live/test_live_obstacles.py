@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Obstacles on the page of exemplar live, and on that of exemplar export: where they are, and that they are seen.
+
+Environment: EXEMPLAR, the program. SCREENSHOTS, a directory for pictures, may be set.
+"""
+import os
+import tempfile
+import unittest
+from pathlib import Path
+
+from live_browser import browser, complaints, needs_browser, wait
+from live_client import Viewer
+from live_server import BAR, Server, call_program, prm
+
+SCENE = {
+    **{key: value for key, value in BAR.items() if not key.startswith(("Examples", "Handles"))},
+    "Material/Young's modulus": "1e5",
+    "Loads/Gravity": "0, 0, -0.1",
+    "Obstacles/Names": "step, roller",
+    "Obstacles/step/Shape": "box -1 -2 -2  1 2 -1",
+    "Obstacles/roller/Shape": "sphere 3 0 -2 0.5",
+    "Obstacles/roller/Motion": "-t; 0; 0",
+    "Time/End": "1",
+}
+# is an obstacle seen? its colour is grey, that of the body is orange
+GREY = """
+    const small = document.createElement("canvas"); small.width = 96; small.height = 72;
+    const pen = small.getContext("2d"); pen.drawImage(document.getElementById("canvas"), 0, 0, 96, 72);
+    const all = pen.getImageData(0, 0, 96, 72).data; let n = 0, sum = 0;
+    for (let i = 0; i < all.length; i += 4)
+        if (all[i + 3] === 255 && Math.abs(all[i] - all[i + 2]) < 40) { ++n; sum += (i / 4) % 96; }
+    return [n, sum / n];"""
+
+
+class LiveObstacles(unittest.TestCase):
+    def setUp(self):
+        directory = tempfile.TemporaryDirectory()
+        self.addCleanup(directory.cleanup)
+        self.here = Path(directory.name)
+        (self.here / "scene.prm").write_text(prm(SCENE))
+
+    def serve(self, *arguments):
+        server = Server(self.here / "scene.prm", *arguments, log=self.here / "log.txt")
+        self.addCleanup(server.__exit__)
+        return server
+
+    def look(self, page, name):
+        self.addCleanup(page.quit)
+        if "SCREENSHOTS" in os.environ:
+            page.save_screenshot(str(Path(os.environ["SCREENSHOTS"]) / f"{name}.png"))
+        self.assertEqual(complaints(page), [])
+
+    def test_what_moves_goes_with_the_frames(self):
+        with Viewer(self.serve("--floor", "-3")) as viewer:
+            self.assertAlmostEqual(viewer.scene["floor"], -3, delta=1e-12)
+            at_start = viewer.obstacles[0].places
+            self.assertEqual(max(max(t) for t in viewer.triangles_of_obstacles) + 1, len(at_start))
+            self.assertEqual(sorted({round(z, 3) for _, _, z in at_start[:8]}), [-2, -1])
+            self.assertGreater(min(z for _, _, z in at_start), -2.51)  # the floor is no part of it
+            viewer.wait_steps(20)
+            frame = viewer.frames[-1]
+            for before, after, way in ((at_start[0], frame.obstacles.places[0], 0), (at_start[-1], frame.obstacles.places[-1], -frame.time)):
+                self.assertAlmostEqual(after[0] - before[0], way, delta=2e-3)
+
+    def test_what_stands_is_said_once_and_without_obstacles_nothing(self):
+        (self.here / "scene.prm").write_text(prm({**SCENE, "Obstacles/roller/Motion": None}))
+        with Viewer(self.serve()) as viewer:
+            viewer.wait_steps(3)
+            self.assertEqual((len(viewer.obstacles), viewer.frames[-1].obstacles, viewer.scene["floor"]), (1, None, None))
+        (self.here / "scene.prm").write_text(prm({key: value for key, value in SCENE.items() if "Obstacles" not in key}))
+        with Viewer(self.serve()) as viewer:
+            viewer.wait_steps(3)
+            self.assertEqual((viewer.obstacles, viewer.frames[-1].obstacles), ([], None))
+
+    @needs_browser
+    def test_the_page_shows_them(self):
+        server = self.serve("--floor", "-3")
+        page = browser()
+        page.get(f"http://{server.host}/?token={server.token}")
+        wait(lambda: "real time" in page.find_element("id", "strip").text)
+        first, place = page.execute_script(GREY)
+        self.assertGreater(first, 20)
+        wait(lambda: page.execute_script(GREY)[1] < place - 1)  # the roller comes from the right
+        level = page.execute_async_script("const done = arguments[0]; import('./app.js').then(({ view }) => done("
+                                          "[view.ground.disc.position.z, view.ground.disc.visible, view.obstacles.mesh.visible]));")
+        self.assertAlmostEqual(level[0], -3, places=5)
+        self.assertEqual(level[1:], [True, True])
+        self.assertFalse(page.find_element("id", "said").is_displayed())  # that nothing rests on the ground
+        self.look(page, "live_obstacles")
+
+    @needs_browser
+    def test_a_page_of_a_run_shows_them_in_motion(self):
+        done = call_program(self.here / "scene.prm", "--set", "Time/Step=0.02", "--output", self.here / "run", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = call_program("export", self.here / "run", "--html", self.here / "run.html")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = browser()
+        page.get(f"file://{self.here}/run.html")
+        seen = []
+        for frame in (0, 49):
+            page.execute_script("const bar = document.getElementById('scrub'); bar.value = arguments[0]; bar.oninput({ target: bar });", frame)
+            wait(lambda: page.find_element("id", "time").text == f"t = {0.02 * frame:.2f} s")
+            wait(lambda: page.execute_script(GREY)[0] > 20)
+            seen.append(page.execute_script(GREY)[1])
+        self.assertLess(seen[1], seen[0] - 1)
+        self.look(page, "export_obstacles")
+
+
+if __name__ == "__main__":
+    unittest.main()
