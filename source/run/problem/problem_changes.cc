@@ -203,7 +203,8 @@ namespace Exemplar
     }
     actions.obstacles = std::move(added);
     potential.add_term(std::make_unique<ObstacleTerm>(*actions.obstacles, *actions.contact_surface,
-                                                      body.material));
+                                                      body.material, body.fe_space.rest_positions(),
+                                                      actions.integrator.get()));
     refresh(new_terms);
   }
 

@@ -192,7 +192,7 @@ namespace Exemplar
     if (obstacles != nullptr)
       terms.push_back(std::make_unique<ObstacleTerm>(
           *obstacles, *contact_surface, body.material, body.fe_space.rest_positions(),
-          mass != nullptr ? integrator_of_terms : nullptr));
+          integrator_of_terms));
     if (!initial_stresses.empty())
       terms.push_back(std::make_unique<InitialStressTerm>(cells, body.fe_space, initial_stresses));
     return terms;
