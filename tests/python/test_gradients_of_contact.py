@@ -8,7 +8,7 @@ import numpy as np
 
 import exemplar
 
-from test_gradients import bar, difference, edges_of, with_middles
+from test_gradients import bar, difference, edges_of, poses_of, with_middles
 
 random = np.random.default_rng(23)
 NODES, CELLS, IDS = bar((4, 2, 2), random)
@@ -182,6 +182,28 @@ class Differences(unittest.TestCase):
         along = Shape("capsule", (2.7, -0.02, LOW - 0.47), (0.4, 0, LOW - 0.48), radius=0.4)
         straight = np.round(NODES * [4 / 3, 2, 2]) / [4 / 3, 2, 2]
         self.check(Case(DYNAMIC, along, distance=0.3, rest_positions=straight + 0.1 * (NODES - straight)))
+
+
+    def test_examples_beside_friction(self):
+        sphere = {"Shape": SHAPES["sphere"].text(np.zeros(3), 0.8), "Friction": 0.4}
+        base = scene(DYNAMIC, Obstacles={"Distance": 0.1, **RUBS, "it": sphere}, Material={"Young's modulus": 1e5},
+                     Examples={"Importance": 0.7, "Weights": "simplex"})
+        by_positions, by_weights = random.normal(size=NODES.shape), random.normal(size=4)
+
+        def recorded(importance=0.7):
+            problem = exemplar.Problem(base, mesh=(NODES, CELLS, IDS), poses=poses_of(NODES))
+            problem.importance = importance
+            with problem.record() as trajectory:
+                for _ in range(5):
+                    problem.step()
+            return problem, trajectory
+
+        def value(importance):
+            problem, _ = recorded(importance)
+            return (by_positions * problem.positions).sum() + by_weights @ problem.weights
+        found = recorded()[1].vjp(4 * [None] + [by_positions], 4 * [None] + [by_weights])["importance"]
+        expected = difference(value, 0.7, 1, 1e-4)
+        self.assertLess(abs(found - expected), 1e-6 * abs(expected), (found, expected))
 
 
 class Answers(unittest.TestCase):

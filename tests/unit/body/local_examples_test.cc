@@ -77,6 +77,20 @@ namespace Exemplar::Testing
       EXPECT_GT(state.weights[4], state.weights[1] + 0.1); // right: twisted
     }
 
+    TEST_F(LocalExamples, TheRidgeIsSharedByVolume)
+    {
+      // a region is a quarter of the bar, so that equal weights in both cost what one weight for all does
+      const std::string ridge   = "set Energy = scaled\n set Weight penalty = 0.01\n";
+      const auto        penalty = [&](const std::string &keys)
+      { return Scene(scene(drag, ridge + keys, 1.)).problem.examples.weights.penalty_matrix(); };
+      const dealii::FullMatrix<double> global = penalty(""),
+                                       local  = penalty("set Weights per region = true\n");
+      ASSERT_EQ(local.m(), 6u);
+      EXPECT_GT(global(1, 1), 0.);
+      EXPECT_NEAR(local(1, 1), 0.25 * global(1, 1), 1e-12 * global(1, 1));
+      EXPECT_NEAR(local(4, 4), 0.75 * global(1, 1), 1e-12 * global(1, 1));
+    }
+
     TEST_F(LocalExamples, ABlendLengthJoinsTheRegions)
     {
       const auto difference = [&](const std::string &length)
