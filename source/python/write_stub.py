@@ -42,6 +42,7 @@ ARGUMENTS = {
     "dJ_dw": "ArrayLike | Sequence[ArrayLike | None] | None", "dJ_dv": "Sequence[ArrayLike | None] | None",
     "set_motion.function": "Callable[[NDArray[np.float64], float], ArrayLike]",
     "grab.function": "Callable[[NDArray[np.float64], float], ArrayLike]",
+    "add_obstacle.shape": "str | tuple[ArrayLike, ArrayLike]", "motion": "str", "turn": "str", "friction": "float",
     "add_term.function": TERM, "check_term.term": f"int | {TERM}",
     "animate.positions": "Iterable[ArrayLike]", "interval": "float", "file": "str | os.PathLike[str]",
     "on_iteration.function": "Callable[[Report], object] | None",

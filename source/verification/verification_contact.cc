@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 // Bodies that meet obstacles: doc/contact.md.
@@ -126,20 +127,89 @@ namespace Exemplar::Verification
           (5. * cube_mass - end[0]) / (end[2] + 2. * cube_mass), Comparison::relative, 0.01 }
       };
     }
+    /// A quarter of a block, 10 a wide and deep, with layers of cells that grow with the distance from the contact.
+    Inputs
+    graded_block(const double a)
+    {
+      constexpr unsigned int n = 11, n_inner = 6;
+      constexpr double       inner = 1.3; // of a, where cells are of one size
+      return moved_box({ { 1., 1., 1. } }, { { n, n, n } },
+                       [&](const dealii::Point<3> &x)
+                       {
+                         dealii::Point<3> p(n * x[0], n * (x[1] + 0.5), n * (x[2] - 0.5));
+                         const double     layer = std::max({ p[0], p[1], -p[2], 1e-9 });
+                         const double     grown
+                             = std::pow(10. / inner, (layer - n_inner) / (n - n_inner));
+                         return p * (a * inner * (layer > n_inner ? grown / layer : 1. / n_inner));
+                       });
+    }
+
+    /// Hertz: a rigid ball pressed by a^2 / R into a half space. The outer faces go where those of a half space do under a
+    /// force at a point (Boussinesq). The body begins below the ball.
+    std::vector<Measurement>
+    hertz()
+    {
+      const double      R = 1., a = 0.1, E = 1e6, nu = 0.3, depth = a * a / R, width = 5e-5 * R;
+      const double      force = 4. / 3. * E / (1. - nu * nu) * std::sqrt(R) * std::pow(depth, 1.5);
+      const double      c     = force * (1. + nu) / (2. * dealii::numbers::PI * E);
+      const std::string r     = "sqrt(x*x+y*y+z*z+1e-12)";
+      const std::string across
+          = fmt::format("{}*(-z/{}^3-{}/({}*({}-z)))", c, r, 1. - 2. * nu, r, r);
+      const std::string down  = fmt::format("-{0}*(z*z/{1}^3+{2}/{1})", c, r, 2. * (1. - nu));
+      const std::string far   = fmt::format("x*{0}; y*{0}; {1}", across, down);
+      const std::string start = fmt::format(
+          "x+x*{0}*{2}; y+y*{0}*{2}; z+{1}*{2}+exp(5*z)*(1+z)*min(0,{3}-sqrt(max(1-x*x-y*y,0)))",
+          across, down, "min(1,(" + r + "/0.8)^4)", R - depth - 2. * width);
+      const auto held = [](const std::string &box, const std::string &key, const std::string &value)
+      { return set("Select", "box " + box) + set(key, value); };
+      Scene       scene(set("Scene", "static") + box({ { 1., 1., 1. } }, { { 11, 11, 11 } })
+                            + section("Material", set("Young's modulus", E) + set("Poisson's ratio", nu))
+                            + section("Model", set("Strain", "linear") + set("Element", "P2"))
+                            + named_sections("Handles",
+                                             { { "x", held("0 -1 -9 0 9 1", "Components", "x") },
+                                               { "y", held("-1 0 -9 9 0 1", "Components", "y") },
+                                               { "below", held("-1 -1 -9 9 9 -0.9999", "Motion", far) },
+                                               { "right", held("0.9999 -1 -9 9 9 1", "Motion", far) },
+                                               { "behind", held("-1 0.9999 -9 9 9 1", "Motion", far) } })
+                            + section("Initial", set("Pose function", start))
+                            + section("Obstacles",
+                                      set("Names", "ball") + set("Distance", width)
+                                          + section("ball", set("Shape", fmt::format("sphere 0 0 {} {}",
+                                                                                     R - depth, R))))
+                            + section("Time", set("Increments", 1.))
+                            + section("Solver", set("Maximum iterations", 400.)),
+                        {}, graded_block(a));
+      const State end = scene.solve();
+      std::vector<NodalField> fields;
+      obstacles_of(scene.problem).append_fields(end.positions, fields);
+      double sum = 0., squares = 0.;
+      for (unsigned int node = 0; node < end.positions.size() / 3; ++node)
+      {
+        const Vector3<double> x = node_vector(end.positions, node);
+        const double          f = node_vector(fields[0].values, node)[2];
+        sum += f;
+        squares += f * (x[0] * x[0] + x[1] * x[1]);
+      }
+      return { { "force / that of Hertz", 1., -4. * sum / force, Comparison::relative, 0.03 },
+               { "5/2 of the mean square radius / a^2", 1., 2.5 * squares / sum / (a * a),
+                 Comparison::relative, 0.03 } };
+    }
   } // namespace
 
   std::vector<Case>
   contact_cases()
   {
-    return { { "contact-weight", "a cube at rest: the floor bears its weight", weight_on_floor },
-             { "contact-slope",
-               "a cube on slopes beside the angle of friction: creep below the slip speed, or g "
-               "(sin - mu cos)",
-               slope },
-             { "contact-sliding",
-               "a cube that slides until friction stops it: v^2 / 2 mu g, less h v / 2",
-               sliding_cube },
-             { "contact-impact", "an oblique impact: the impulses have the ratio of friction",
-               oblique_impact } };
+    return {
+      { "contact-weight", "a cube at rest: the floor bears its weight", weight_on_floor },
+      { "contact-slope",
+        "a cube on slopes beside the angle of friction: creep below the slip speed, or g "
+        "(sin - mu cos)",
+        slope },
+      { "contact-sliding", "a cube that slides until friction stops it: v^2 / 2 mu g, less h v / 2",
+        sliding_cube },
+      { "contact-impact", "an oblique impact: the impulses have the ratio of friction",
+        oblique_impact },
+      { "contact-hertz", "a rigid ball pressed into a block: Hertz' force and radius", hertz }
+    };
   }
 } // namespace Exemplar::Verification

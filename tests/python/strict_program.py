@@ -39,6 +39,7 @@ def change(problem: exemplar.Problem) -> None:
     problem.set_motion("left", lambda rest, t: 0 * rest)
     problem.set_pose(1, problem.rest_positions)
     problem.add_term(term)
+    problem.add_obstacle("floor", "plane 0 0 -9  0 0 1", motion="0; 0; 0", friction=0.5)
     errors: dict[str, float] = problem.check_term(term, positions=problem.state.positions, time=0.5)
     errors.update(problem.check_term(1))
     problem.on_iteration(watch)

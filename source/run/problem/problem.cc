@@ -84,8 +84,8 @@ namespace Exemplar
     if (actions.obstacles != nullptr)
     {
       check_obstacle_motions(*actions.obstacles, body, time_axis);
-      suit_obstacles(*actions.obstacles, *actions.contact_surface, body, state.positions,
-                     0., actions.notes);
+      suit_obstacles(*actions.obstacles, *actions.contact_surface, body, state.positions, 0.,
+                     actions.notes);
     }
     state.history = cells.get_field().get_batches().history();
     start(state);
