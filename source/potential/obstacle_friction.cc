@@ -102,7 +102,6 @@ namespace Exemplar
   TermChange
   ObstacleTerm::renew(const TermPoint &at)
   {
-    constexpr unsigned int max_renewals = 20;
     if (!have_friction || !step.has_begun || step.n_renewals > max_renewals)
       return TermChange::none;
     std::vector<Rubbing> fresh            = rubbing_at(at.positions);

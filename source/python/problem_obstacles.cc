@@ -5,6 +5,7 @@
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/held_problem.h>
 #include <exemplar/python/module_parts.h>
+#include <exemplar/run/problem/obstacle_start.h>
 
 #include <fmt/core.h>
 
@@ -33,18 +34,19 @@ namespace Exemplar::Python
     py::dict
     obstacles(const HeldProblem &held)
     {
-      py::dict result;
-      for (const auto &term : held.get().potential.get_terms())
-        if (const auto *const of_obstacles = dynamic_cast<const ObstacleTerm *>(term.get()))
-          for (const ObstacleReport &report : of_obstacles->report())
-          {
-            py::dict one;
-            one["force"]                 = array_of(report.force);
-            one["torque"]                = array_of(report.torque);
-            one["work"]                  = report.work;
-            one["heat"]                  = report.heat;
-            result[py::str(report.name)] = one;
-          }
+      py::dict                  result;
+      const ObstacleTerm *const of_obstacles = find_obstacle_term(held.get());
+      if (of_obstacles == nullptr)
+        return result;
+      for (const ObstacleReport &report : of_obstacles->report())
+      {
+        py::dict one;
+        one["force"]                 = array_of(report.force);
+        one["torque"]                = array_of(report.torque);
+        one["work"]                  = report.work;
+        one["heat"]                  = report.heat;
+        result[py::str(report.name)] = one;
+      }
       return result;
     }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/potential/obstacle_term.h>
+#include <exemplar/run/problem/obstacle_start.h>
 #include <exemplar/verification/verification.h>
 #include <exemplar/verification/verification_scene.h>
 
@@ -41,15 +42,6 @@ namespace Exemplar::Verification
       return section("Loads", set("Gravity", fmt::format("{:.17g}, 0, {:.17g}", x, z)));
     }
 
-    const ObstacleTerm &
-    obstacles_of(const Problem &problem)
-    {
-      for (const auto &term : problem.potential.get_terms())
-        if (const auto *const found = dynamic_cast<const ObstacleTerm *>(term.get()))
-          return *found;
-      throw std::logic_error("no obstacles");
-    }
-
     double
     speed(const Problem &problem)
     {
@@ -63,7 +55,8 @@ namespace Exemplar::Verification
                   + section("Time", set("Mass damping", 20.)));
       scene.solve();
       return { { "force of the floor / N", cube_mass * g,
-                 obstacles_of(scene.problem).report()[0].force[2], Comparison::relative, 1e-6 } };
+                 find_obstacle_term(scene.problem)->report()[0].force[2], Comparison::relative,
+                 1e-6 } };
     }
 
     /// The cube on a slope, which gravity makes, at the end of the time [s].
@@ -181,7 +174,7 @@ namespace Exemplar::Verification
                         {}, graded_block(a));
       const State end = scene.solve();
       std::vector<NodalField> fields;
-      obstacles_of(scene.problem).append_fields(end.positions, fields);
+      find_obstacle_term(scene.problem)->append_fields(end.positions, fields);
       double sum = 0., squares = 0.;
       for (unsigned int node = 0; node < end.positions.size() / 3; ++node)
       {

@@ -50,6 +50,13 @@ namespace Exemplar
     TermChange
     renew(const TermPoint &at) override;
 
+    /// Whether the normal forces of friction have settled in the step that was last solved: not if they were renewed as often as they may be.
+    bool
+    has_settled() const
+    {
+      return step.n_renewals <= max_renewals;
+    }
+
     std::optional<double>
     dissipation(const State &end) const override;
 
@@ -147,6 +154,8 @@ namespace Exemplar
       double                        weight;
       std::vector<StandingObstacle> standing;
     };
+
+    static constexpr unsigned int max_renewals = 20; ///< a step
 
     /// What of the term belongs to the step that has begun.
     struct Step

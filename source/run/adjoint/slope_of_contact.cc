@@ -29,16 +29,6 @@ namespace Exemplar
     }
   } // namespace
 
-  ObstacleTerm *
-  find_obstacle_term(const Problem &problem)
-  {
-    if (problem.actions.obstacles != nullptr)
-      for (const auto &term : problem.potential.get_terms())
-        if (auto *const found = dynamic_cast<ObstacleTerm *>(term.get()))
-          return found;
-    return nullptr;
-  }
-
   void
   add_slope_of_contact(const Problem &problem, const Direction &direction, SlopeDerivatives &sums)
   {

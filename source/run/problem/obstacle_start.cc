@@ -2,7 +2,9 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/potential/contact_clearance.h>
+#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/run/problem/obstacle_start.h>
+#include <exemplar/run/problem/problem.h>
 
 #include <fmt/core.h>
 
@@ -205,5 +207,15 @@ namespace Exemplar
         notes.push_back(done);
       start.keep_widths();
     }
+  }
+
+  ObstacleTerm *
+  find_obstacle_term(const Problem &problem)
+  {
+    if (problem.actions.obstacles != nullptr)
+      for (const auto &term : problem.potential.get_terms())
+        if (auto *const found = dynamic_cast<ObstacleTerm *>(term.get()))
+          return found;
+    return nullptr;
   }
 } // namespace Exemplar

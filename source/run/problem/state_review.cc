@@ -3,7 +3,9 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/rigid_motion.h>
+#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/run/problem/example_starts.h>
+#include <exemplar/run/problem/obstacle_start.h>
 #include <exemplar/run/problem/state_review.h>
 
 #include <fmt/core.h>
@@ -206,6 +208,9 @@ namespace Exemplar
   {
     if (report.load_stages > 0 && first_raised == 0)
       first_raised = problem.state.step;
+    if (const ObstacleTerm *const obstacles = find_obstacle_term(problem);
+        obstacles != nullptr && !obstacles->has_settled() && n_unsettled++ == 0)
+      first_unsettled = problem.state.step;
     const unsigned int n_cells = problem.evaluation.elastic.inverted_cells;
     if (n_cells == 0)
       return;
@@ -241,6 +246,13 @@ namespace Exemplar
           problem.parameters.scene == SceneKind::statics
               ? "Loads/Ramp = increments raises them over the increments, with frames of the way."
               : "Smaller steps (Time/Step) may avoid it."));
+    if (n_unsettled > 0)
+      all.push_back(fmt::format(
+          "Friction had not settled in {} {}, first in step {}: its normal forces changed by more "
+          "than Obstacles/Lag tolerance, {}, after each of 20 solutions. Take smaller steps, or a "
+          "greater Lag tolerance.",
+          n_unsettled, n_unsettled == 1 ? "step" : "steps", first_unsettled,
+          shortest_text(problem.actions.obstacles->lag_tolerance)));
     for (const auto &warning :
          { describe_stretched(problem), describe_turned(problem), describe_miss(problem) })
       if (warning)

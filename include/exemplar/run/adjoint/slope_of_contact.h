@@ -3,17 +3,12 @@
 #define exemplar_slope_of_contact_h
 
 #include <exemplar/run/adjoint/slope_derivatives.h>
+#include <exemplar/run/problem/obstacle_start.h>
 
 // The slope of what obstacles do to the body.
 
 namespace Exemplar
 {
-  class ObstacleTerm;
-
-  /// Null without obstacles.
-  ObstacleTerm *
-  find_obstacle_term(const Problem &problem);
-
   /// Add the slope of barriers and friction at the problem's state. Friction needs a step that
   /// potential.begin_step() has begun, of which the state is the end.
   void

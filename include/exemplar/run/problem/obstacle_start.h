@@ -20,6 +20,13 @@ namespace Exemplar
                  const Vector             &positions,
                  double                    time,
                  std::vector<std::string> &notes);
+
+  class ObstacleTerm;
+  class Problem;
+
+  /// The term of the obstacles in a problem's potential; null without obstacles.
+  ObstacleTerm *
+  find_obstacle_term(const Problem &problem);
 } // namespace Exemplar
 
 #endif

@@ -35,7 +35,8 @@ namespace Exemplar
 
     const Problem &problem;
     Inversions     inversions;
-    unsigned int   first_raised = 0; ///< first step with loads raised in parts; 0: none
+    unsigned int   first_raised    = 0; ///< first step with loads raised in parts; 0: none
+    unsigned int   first_unsettled = 0, n_unsettled = 0; ///< steps whose friction has not settled
   };
 
   /// At the end of a scene, a warning if missed_example() finds one; else none. All processes must
