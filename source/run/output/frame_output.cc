@@ -53,6 +53,18 @@ namespace Exemplar
     return frame;
   }
 
+  Playback
+  playback_of(const SceneParameters &scene, const TimeAxis &axis)
+  {
+    Playback result;
+    result.interval = axis.step_size(1) * scene.output.every;
+    if (scene.scene == SceneKind::dynamic) // 1 / 0.01 without rounding errors
+      result.frames_per_second = std::round(1e6 / result.interval) / 1e6;
+    const auto &g  = scene.loads.gravity;
+    result.z_is_up = std::abs(g[2]) > std::abs(g[1]);
+    return result;
+  }
+
   FrameOutput::FrameOutput(Problem                        &problem,
                            const RunDirectory             &directory,
                            const std::vector<FrameFormat> &formats)
@@ -90,25 +102,13 @@ namespace Exemplar
   void
   FrameOutput::add_writers(Shown &shown) const
   {
-    const OutputParameters &output = problem.parameters.output;
+    const OutputParameters &output   = problem.parameters.output;
+    const Playback          playback = playback_of(problem.parameters, problem.time_axis);
     for (const std::string &name : output.formats)
       if (const FrameFormat &format = find_format(name, formats); output.every > 0)
         shown.writers.emplace_back(&format,
                                    format.writer_of({ problem.body.mesh, problem.body.fe_space,
-                                                      shown.surface, playback(), shown.carried }));
-  }
-
-  Playback
-  FrameOutput::playback() const
-  {
-    const SceneParameters &scene = problem.parameters;
-    Playback               result;
-    result.interval = problem.time_axis.step_size(1) * scene.output.every;
-    if (scene.scene == SceneKind::dynamic) // 1 / 0.01 without rounding errors
-      result.frames_per_second = std::round(1e6 / result.interval) / 1e6;
-    const auto &g  = scene.loads.gravity;
-    result.z_is_up = std::abs(g[2]) > std::abs(g[1]);
-    return result;
+                                                      shown.surface, playback, shown.carried }));
   }
 
   Vector

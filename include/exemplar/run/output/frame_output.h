@@ -20,6 +20,10 @@ namespace Exemplar
   Frame
   frame_of(Problem &problem);
 
+  /// How a scene's frames are played.
+  Playback
+  playback_of(const SceneParameters &scene, const TimeAxis &axis);
+
   /// The frames of a run, in the formats of Output/Formats. With more than one thread they are
   /// written while the next step is computed; write() and drain() may then throw the error of
   /// an earlier frame.
@@ -65,9 +69,6 @@ namespace Exemplar
     remove(unsigned int step) const;
 
   private:
-    Playback
-    playback() const;
-
     using Writer = std::pair<const FrameFormat *, std::unique_ptr<const FrameWriter>>;
 
     /// An object with frames: the body, or a surface that it carries.
