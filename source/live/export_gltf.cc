@@ -438,20 +438,28 @@ namespace Exemplar::Live
     GltfMaker         maker(motion, shapes, options.run);
     const std::string bytes = maker.make();
     GltfReport        report;
-    report.n_frames       = motion.frames.size();
-    report.n_vertices     = motion.rest.size();
-    report.n_examples     = shapes.n_examples;
-    report.n_shapes       = shapes.n_shapes();
-    report.n_bytes        = bytes.size();
-    report.error          = shapes.error;
-    report.relative_error = shapes.error / shapes.diagonal;
-    report.warnings       = motion.notes;
+    bool              is_clamped = false;
+    report.n_frames              = motion.frames.size();
+    report.n_vertices            = motion.rest.size();
+    report.n_examples            = shapes.n_examples;
+    report.n_shapes              = shapes.n_shapes();
+    report.n_bytes               = bytes.size();
+    report.error                 = shapes.error;
+    report.relative_error        = shapes.error / shapes.diagonal;
+    report.warnings              = motion.notes;
     report.warnings.insert(report.warnings.end(), maker.notes.begin(), maker.notes.end());
     if (const std::size_t n = shapes.targets.size(); n > supported_attributes)
       report.warnings.push_back(
           fmt::format("There are {} morph targets. The standard asks viewers for {}: look whether "
                       "yours shows all, or take fewer by --shapes.",
                       n, supported_attributes));
+    for (const auto &weights : motion.weights)
+      for (const double weight : weights)
+        if (weight < -1e-6 || weight > 1. + 1e-6)
+          is_clamped = true;
+    if (is_clamped)
+      report.warnings.push_back("Some weights of examples are less than 0 or greater than 1, which "
+                                "Blender's importer clamps. Take Examples/Weights = simplex.");
     AtomicFile out(options.file);
     out.stream() << bytes;
     out.commit();

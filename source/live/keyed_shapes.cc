@@ -27,6 +27,15 @@ namespace Exemplar::Live
       return result;
     }
 
+    Places
+    rounded(const Places &places)
+    {
+      Places result;
+      for (const Point &x : places)
+        result.push_back(rounded(Tensor1(x)));
+      return result;
+    }
+
     /// A rigid motion as quaternion and translation.
     ShapeKey
     key_of(const RigidMotion &motion, const ShapeKey *const before)
@@ -166,13 +175,12 @@ namespace Exemplar::Live
       return std::sqrt(square);
     }
 
-    /// Eigenvectors of R R^T by descending eigenvalue, scaled so that the entry of largest size is
-    /// 1; those of rounding are left out.
+    /// Eigenvectors of R R^T by descending eigenvalue; those of rounding are left out.
     std::vector<std::vector<double>>
     courses_of(const Rows &rows)
     {
       const unsigned int n = rows.m();
-      Rows               gram(n, n);
+      Rows               gram(n, n), vectors;
       rows.mTmult(gram, rows);
       std::vector<std::vector<double>> courses;
       const double                     trace = gram.trace();
@@ -181,19 +189,12 @@ namespace Exemplar::Live
       dealii::LAPACKFullMatrix<double> matrix(n, n);
       matrix = gram;
       dealii::Vector<double> values;
-      Rows                   vectors;
       matrix.compute_eigenvalues_symmetric(1e-14 * trace, 2. * trace, 0., values, vectors);
       for (unsigned int k = values.size(); k-- > 0;)
       {
-        std::vector<double> course(n);
+        courses.emplace_back(n);
         for (unsigned int frame = 0; frame < n; ++frame)
-          course[frame] = vectors(frame, k);
-        const double largest = *std::max_element(course.begin(), course.end(),
-                                                 [](const double a, const double b)
-                                                 { return std::abs(a) < std::abs(b); });
-        for (double &x : course)
-          x /= largest;
-        courses.push_back(course);
+          courses.back()[frame] = vectors(frame, k);
       }
       return courses;
     }
@@ -209,7 +210,7 @@ namespace Exemplar::Live
       rows.Tvmult(sum, c);
       Places target;
       for (unsigned int i = 0; i < sum.size(); i += 3)
-        target.push_back(rounded(Tensor1({ sum[i], sum[i + 1], sum[i + 2] }) / square));
+        target.emplace_back(Tensor1({ sum[i], sum[i + 1], sum[i + 2] }) / square);
       return target;
     }
 
@@ -218,8 +219,81 @@ namespace Exemplar::Live
     {
       Places result;
       for (std::size_t v = 0; v < a.size(); ++v)
-        result.push_back(rounded(a[v] - b[v]));
+        result.emplace_back(a[v] - b[v]);
       return result;
+    }
+
+    /// A target with its weights.
+    struct Part
+    {
+      std::vector<double> course; ///< weights by frame
+      Places              target;
+      Places              normals; ///< what it adds to normals; empty: none
+    };
+
+    /// What is not yet shown by targets, a row a frame.
+    struct Remainder
+    {
+      Rows places, normals; ///< normals: of no size where there are none
+
+      /// The part that follows a course, the best in the least-squares sense.
+      Part
+      part_of(const std::vector<double> &course) const
+      {
+        return { course, target_of(places, course),
+                 normals.m() > 0 ? target_of(normals, course) : Places() };
+      }
+
+      void
+      subtract(const Part &part)
+      {
+        add_outer_product(places, part.course, -1., part.target);
+        add_outer_product(normals, part.course, -1., part.normals);
+      }
+    };
+
+    /// Add a multiple of a target to another one.
+    void
+    add(Places &sum, const double factor, const Places &target)
+    {
+      for (std::size_t v = 0; v < target.size(); ++v)
+        sum[v] += factor * target[v];
+    }
+
+    /// The mean of all frames, whose weight is 1, and singular vectors of what is left, whose
+    /// weights are from 0 to 1, as the mean takes over what is needed for that: players clamp
+    /// other weights.
+    std::vector<Part>
+    shapes_of(Remainder &left, const std::optional<unsigned int> &n_shapes, const double tolerance)
+    {
+      std::vector<Part> parts;
+      const auto        are_enough = [&]
+      { return n_shapes ? parts.size() >= *n_shapes : longest(left.places) <= tolerance; };
+      if (are_enough())
+        return parts;
+      parts.push_back(left.part_of(std::vector<double>(left.places.m(), 1.)));
+      left.subtract(parts.front());
+      for (const std::vector<double> &course : courses_of(left.places))
+      {
+        if (are_enough())
+          break;
+        parts.push_back(left.part_of(course));
+        left.subtract(parts.back());
+      }
+      for (std::size_t i = 1; i < parts.size(); ++i)
+      {
+        Part        &part  = parts[i];
+        const auto   range = std::minmax_element(part.course.begin(), part.course.end());
+        const double least = *range.first, width = *range.second - least;
+        add(parts.front().target, least, part.target);
+        add(parts.front().normals, least, part.normals);
+        for (auto *places : { &part.target, &part.normals })
+          for (Point &x : *places)
+            x *= width;
+        for (double &x : part.course)
+          x = (x - least) / width;
+      }
+      return parts;
     }
 
     std::vector<double>
@@ -260,15 +334,14 @@ namespace Exemplar::Live
     };
     shapes.n_examples = motion.examples.size();
     shapes.diagonal   = diagonal_of_box(body_at_rest);
-    for (const Point &place : motion.rest)
-      shapes.rest.push_back(rounded(place));
+    shapes.rest       = rounded(motion.rest);
 
     const unsigned int n_frames = motion.frames.size();
-    Rows               rest_of_frames(n_frames, 3 * motion.rest.size()), normals;
+    Remainder          left{ Rows(n_frames, 3 * motion.rest.size()), Rows() };
     const Triangles    triangles = with_normals ? triangles_of(motion.surfaces) : Triangles();
     if (with_normals)
     {
-      normals.reinit(n_frames, 3 * motion.rest.size());
+      left.normals.reinit(n_frames, 3 * motion.rest.size());
       shapes.rest_normals = normals_of(triangles, motion.rest);
     }
     for (unsigned int frame = 0; frame < n_frames; ++frame)
@@ -276,36 +349,29 @@ namespace Exemplar::Live
       const RigidMotion rigid = fit(motion.frames[frame]);
       const Places      local = moved_back(rigid, motion.frames[frame]);
       shapes.keys.push_back(key_of(rigid, frame > 0 ? &shapes.keys.back() : nullptr));
-      set_row(rest_of_frames, frame, local, motion.rest);
+      set_row(left.places, frame, local, motion.rest);
       if (with_normals)
-        set_row(normals, frame, normals_of(triangles, local), shapes.rest_normals);
+        set_row(left.normals, frame, normals_of(triangles, local), shapes.rest_normals);
     }
-    const auto add = [&](const std::vector<double> &course, Places target, Places of_normals)
+    const auto keep = [&](const Part &part)
     {
-      add_outer_product(rest_of_frames, course, -1., target);
-      shapes.targets.push_back(std::move(target));
+      shapes.targets.push_back(rounded(part.target));
       if (with_normals)
-      {
-        add_outer_product(normals, course, -1., of_normals);
-        shapes.target_normals.push_back(std::move(of_normals));
-      }
+        shapes.target_normals.push_back(part.normals);
       for (unsigned int frame = 0; frame < n_frames; ++frame)
-        shapes.keys[frame].weights.push_back(static_cast<float>(course[frame]));
+        shapes.keys[frame].weights.push_back(static_cast<float>(part.course[frame]));
     };
     for (std::size_t i = 0; i < shapes.n_examples; ++i)
     {
       const Places local = moved_back(fit(motion.examples[i]), motion.examples[i]);
-      add(course_of_example(motion, i), difference(local, motion.rest),
-          with_normals ? difference(normals_of(triangles, local), shapes.rest_normals) : Places());
+      Part         part{ course_of_example(motion, i), difference(local, motion.rest), {} };
+      if (with_normals)
+        part.normals = difference(normals_of(triangles, local), shapes.rest_normals);
+      left.subtract(part);
+      keep(part);
     }
-    const double tolerance = default_error_of_shapes * shapes.diagonal;
-    for (const std::vector<double> &course : courses_of(rest_of_frames))
-    {
-      if (n_shapes ? shapes.n_shapes() == *n_shapes : longest(rest_of_frames) <= tolerance)
-        break;
-      add(course, target_of(rest_of_frames, course),
-          with_normals ? target_of(normals, course) : Places());
-    }
+    for (const Part &part : shapes_of(left, n_shapes, default_error_of_shapes * shapes.diagonal))
+      keep(part);
     shapes.error = error_of(shapes, motion.frames);
     return shapes;
   }

@@ -53,6 +53,28 @@ namespace Exemplar::Live
       return places;
     }
 
+    /// Vertices that no face uses, which no player is given, stand where another one does, so that
+    /// they do not count.
+    void
+    hide_vertices_without_faces(RunMotion &motion)
+    {
+      std::vector<bool> is_used(motion.rest.size(), false);
+      for (const MovingSurface &moving : motion.surfaces)
+        for (const auto &face : moving.surface.faces)
+          for (const unsigned int vertex : face)
+            is_used[moving.first_in_list + vertex] = true;
+      std::vector<Places *> lists{ &motion.rest };
+      for (Places &places : motion.examples)
+        lists.push_back(&places);
+      for (Places &places : motion.frames)
+        lists.push_back(&places);
+      const auto shown = std::find(is_used.begin(), is_used.end(), true) - is_used.begin();
+      for (std::size_t v = 0; v < is_used.size(); ++v)
+        for (Places *places : lists)
+          if (!is_used[v])
+            (*places)[v] = (*places)[shown];
+    }
+
     void
     append(Places &all, const Places &places)
     {
@@ -117,6 +139,7 @@ namespace Exemplar::Live
           read_surfaces();
         else
           read_boundary();
+        hide_vertices_without_faces(motion);
         return std::move(motion);
       }
 

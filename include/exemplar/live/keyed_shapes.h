@@ -43,10 +43,11 @@ namespace Exemplar::Live
   /// The error, relative to the diagonal, that decides how many shapes there are by default.
   constexpr double default_error_of_shapes = 0.005;
 
-  /// Examples keep the weights of the run; of what is left the shapes are the singular vectors of
-  /// all frames, largest first: `n_shapes` of them, fewer if nothing is left, or as many as bring
-  /// all vertices within default_error_of_shapes. Their weights are between -1 and 1. Rigid motions
-  /// are those that bring the body at rest nearest to each frame.
+  /// Examples keep the weights of the run. Of what is left the first shape is the mean of all
+  /// frames, with the weight 1, and the others are singular vectors, largest first, with weights
+  /// from 0 to 1: `n_shapes` in all, fewer if nothing is left, or as many as bring all vertices
+  /// within default_error_of_shapes. Rigid motions are those that bring the body at rest nearest to
+  /// each frame.
   KeyedShapes
   keyed_shapes(const RunMotion                   &motion,
                const std::optional<unsigned int> &n_shapes,
