@@ -9,6 +9,7 @@
 
 namespace Exemplar::Live
 {
+  /// What is to be written.
   struct GltfOptions
   {
     std::filesystem::path       run;  ///< its output directory
