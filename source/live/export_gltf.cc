@@ -7,9 +7,9 @@
 #include <exemplar/exemplar.h>
 #include <exemplar/live/export_gltf.h>
 #include <exemplar/live/keyed_shapes.h>
-#include <exemplar/live/surface_materials.h>
 #include <exemplar/run/frames/raw_bytes.h>
 #include <exemplar/run/output/output_directory.h>
+#include <exemplar/surface/files/material_library.h>
 #include <exemplar/surface/shape/triangle_surface.h>
 
 #include <fmt/core.h>
@@ -280,8 +280,12 @@ namespace Exemplar::Live
       Json
       mesh_of(const MovingSurface &moving)
       {
-        const auto known = materials_of(moving, run, notes);
-        Json       mesh  = { { "name", moving.name } };
+        const MaterialLibraries libraries
+            = read_material_libraries(moving.surface, { run, moving.folder });
+        for (const std::string &library : libraries.missing)
+          notes.push_back("The material library " + in_quotes(library) + " of " + moving.name
+                          + " is missing: copy it into the run's directory.");
+        Json mesh = { { "name", moving.name } };
         if (!shapes.targets.empty())
         {
           mesh["extras"]["targetNames"] = names;
@@ -293,7 +297,8 @@ namespace Exemplar::Live
           if (!name.empty() || !moving.is_of_body) // what is worn may be seen from inside
           {
             primitive["material"] = materials.size();
-            materials.push_back(material_of(name.empty() ? moving.name : name, known, name));
+            materials.push_back(
+                material_of(name.empty() ? moving.name : name, libraries.materials, name));
             if (!moving.is_of_body)
               materials.back()["doubleSided"] = true;
           }

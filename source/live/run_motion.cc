@@ -290,6 +290,10 @@ namespace Exemplar::Live
       const std::string &name = examples.poses[column - first];
       if (is_surface_file(name))
         return {};
+      if (std::error_code none; !fs::is_regular_file(name, none))
+        throw UserError(in_quotes(name) + " is missing, an example of the run. Bring it back.");
+      require_run_file(files.checkpoint());
+      require_run_file(files.final_pose());
       const auto        digests = load_checkpoint(files.checkpoint()).input_digests;
       const std::string digest  = sha256(name);
       if (std::none_of(digests.begin(), digests.end(),
@@ -373,17 +377,18 @@ namespace Exemplar::Live
     RunReader::name_of_example(const std::string &column) const
     {
       // weight_I, or weight_R_I of region R
-      const auto  words = split_trimmed(column, '_');
-      const auto  i     = decimal_number<std::size_t>(words.back());
-      const auto  text  = read_text_file(files.summary());
-      const auto  json  = nlohmann::json::parse(text.value_or(""), nullptr, false);
-      std::string name  = column;
-      if (i && json.is_object())
-        if (const auto names = json.value("example_names", nlohmann::json::array());
-            names.is_array() && *i < names.size() && names[*i].is_string())
-          name = names[*i].get<std::string>()
-                 + (words.size() > 2 ? " in region " + words[1] : std::string());
-      return name;
+      const auto      words = split_trimmed(column, '_');
+      const auto      i     = decimal_number<std::size_t>(words.back());
+      std::error_code none;
+      if (!i || !fs::is_regular_file(files.summary(), none)) // a pipe would block
+        return column;
+      const auto text  = read_text_file(files.summary()).value_or("");
+      const auto json  = nlohmann::json::parse(text, nullptr, false);
+      const auto names = json.is_object() ? json.find("example_names") : json.end();
+      if (names == json.end() || !names->is_array() || *i >= names->size()
+          || !(*names)[*i].is_string())
+        return column;
+      return (*names)[*i].get<std::string>() + (words.size() > 2 ? " in region " + words[1] : "");
     }
 
     /// Take over the poses of these columns that are not rest's.

@@ -199,6 +199,30 @@ class ExportGltf(SceneTest):
         (self.directory / "out/bar.mtl").unlink()
         self.assertIn("The material library 'bar.mtl' of body is missing", self.export()[1])
 
+    def test_texture_coordinates_of_a_ply(self):
+        surface = bar_surface()
+        head = f"ply\nformat ascii 1.0\nelement vertex {len(surface.vertices)}\n" + "".join(f"property float {c}\n" for c in "xyz")
+        faces = f"element face {len(surface.faces)}\nproperty list uchar int vertex_indices\n"
+
+        def line(*numbers):
+            return " ".join(map(repr, numbers)) + "\n"
+        of_vertices = (head + "property float u\nproperty float v\n" + faces + "end_header\n"
+                       + "".join(line(*x, *t) for x, t in zip(surface.vertices, surface.texture))
+                       + "".join(line(len(face), *face) for face in surface.faces))
+        of_faces = (head + faces + "property list uchar float texcoord\nend_header\n" + "".join(line(*x) for x in surface.vertices)
+                    + "".join(line(len(face), *face, 2 * len(face), *(c for i in face for c in surface.texture[i])) for face in surface.faces))
+        number = {tuple(map(single, x)): i for i, x in enumerate(surface.vertices)}
+        for text in of_vertices, of_faces:
+            self.write("bar.ply", text)
+            self.solve({**SCENE, "Mesh/Surface": "bar.ply", "Mesh/Carry": None, "Time/End": "0.1"})
+            self.export()
+            gltf = Gltf(self.directory / "run.glb")
+            primitive, = gltf.json["meshes"][0]["primitives"]
+            places, texture = (gltf.accessor(primitive["attributes"][name]) for name in ("POSITION", "TEXCOORD_0"))
+            for x, (u, v) in zip(places, texture, strict=True):
+                self.assertAlmostEqual(u, surface.texture[number[x]][0], delta=1e-6)
+                self.assertAlmostEqual(1 - v, surface.texture[number[x]][1], delta=1e-6)
+
     def test_normals(self):
         self.solve({**SCENE, "Mesh/Carry": None})
         self.export("out", "--normals", "--shapes", "8")
@@ -249,7 +273,7 @@ class ExportGltf(SceneTest):
         self.write("bent.msh", pose + "\n")
         self.refuse("bent.msh", "has changed since the run")
         (self.directory / "bent.msh").unlink()
-        self.refuse("bent.msh")
+        self.refuse("bent.msh", "is missing")
         self.assertFalse((self.directory / "run.glb").exists())
 
     def points(self, file, name="Points"):

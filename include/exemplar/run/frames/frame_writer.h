@@ -26,9 +26,11 @@ namespace Exemplar
     CellResults  cells;
     /// Positions of the vertices of the body's surface in the unit of its file; empty unless a
     /// format shows it.
-    std::vector<SurfaceMesh::Vertex> surface     = {};
-    std::optional<SpaceError>        space_error = {};
-    std::vector<NodalField>          fields      = {}; ///< of the potential's terms
+    std::vector<SurfaceMesh::Vertex> surface = {};
+    /// Their velocities in that unit a second; empty unless dynamic, and a format shows them.
+    std::vector<SurfaceMesh::Vertex> surface_velocities = {};
+    std::optional<SpaceError>        space_error        = {};
+    std::vector<NodalField>          fields             = {}; ///< of the potential's terms
   };
 
   /// A frame that is on disk.

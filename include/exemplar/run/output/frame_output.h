@@ -75,6 +75,7 @@ namespace Exemplar
     struct Shown
     {
       std::string                        carried; ///< name of a carried surface; empty: the body
+      std::filesystem::path              folder;  ///< of the surface's file
       const SurfaceMesh                 *surface; ///< null if no format shows the body's surface
       std::unique_ptr<const SurfaceSkin> skin;    ///< interpolates the surface; null likewise
       std::vector<Writer>                writers; ///< of the formats in use; empty without frames
@@ -99,6 +100,10 @@ namespace Exemplar
 
     static void
     refuse_what_is_not_finite(const Frame &frame);
+
+    /// Set the places of the surface's vertices, and their velocities if a format shows them.
+    static void
+    show_surface(const SurfaceSkin &skin, const std::vector<Writer> &writers, Frame &frame);
 
     /// Write the files of a frame; for a body that processes share, this process' piece.
     void

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef exemplar_live_surface_materials_h
-#define exemplar_live_surface_materials_h
+#ifndef exemplar_material_library_h
+#define exemplar_material_library_h
 
-#include <exemplar/live/run_motion.h>
+#include <exemplar/surface/shape/surface_mesh.h>
 
 #include <array>
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
-namespace Exemplar::Live
+namespace Exemplar
 {
   /// A material of an .mtl file.
   struct SurfaceMaterial
@@ -24,12 +27,17 @@ namespace Exemplar::Live
   std::vector<std::string>
   material_names(const SurfaceMesh &surface);
 
-  /// The materials in the libraries (mtllib) of a surface, which are looked for in the run's
-  /// directory, then in that of the surface. Missing libraries and materials are told in `notes`.
-  std::map<std::string, SurfaceMaterial>
-  materials_of(const MovingSurface         &moving,
-               const std::filesystem::path &run,
-               std::vector<std::string>    &notes);
-} // namespace Exemplar::Live
+  /// Materials by name, and the libraries that are in none of the folders.
+  struct MaterialLibraries
+  {
+    std::map<std::string, SurfaceMaterial> materials;
+    std::vector<std::string>               missing;
+  };
+
+  /// The materials in the libraries (mtllib) of a surface, each looked for in these folders.
+  MaterialLibraries
+  read_material_libraries(const SurfaceMesh                        &surface,
+                          const std::vector<std::filesystem::path> &folders);
+} // namespace Exemplar
 
 #endif

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Format: Wavefront, "MTL material format", Advanced Visualizer manual, appendix B2.
-#include <exemplar/base/message_text.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/text_file.h>
 #include <exemplar/base/words.h>
-#include <exemplar/live/surface_materials.h>
+#include <exemplar/surface/files/material_library.h>
 
 #include <algorithm>
 #include <sstream>
 
-namespace Exemplar::Live
+namespace Exemplar
 {
   namespace fs = std::filesystem;
 
@@ -117,26 +116,24 @@ namespace Exemplar::Live
     return names;
   }
 
-  std::map<std::string, SurfaceMaterial>
-  materials_of(const MovingSurface &moving, const fs::path &run, std::vector<std::string> &notes)
+  MaterialLibraries
+  read_material_libraries(const SurfaceMesh &surface, const std::vector<fs::path> &folders)
   {
-    std::map<std::string, SurfaceMaterial> materials;
-    for (const auto &statement : moving.surface.face_statements)
+    MaterialLibraries result;
+    for (const auto &statement : surface.face_statements)
       if (const auto library = argument_of(statement.second, "mtllib"))
       {
-        const fs::path candidates[] = { run / *library, moving.folder / *library };
-        const auto     found        = std::find_if(std::begin(candidates), std::end(candidates),
-                                                   [](const fs::path &file)
-                                                   {
-                                          std::error_code none;
-                                          return fs::is_regular_file(file, none);
-                                        });
-        if (found != std::end(candidates))
-          read_library(*found, materials);
+        const auto folder = std::find_if(folders.begin(), folders.end(),
+                                         [&](const fs::path &candidate)
+                                         {
+                                           std::error_code none;
+                                           return fs::is_regular_file(candidate / *library, none);
+                                         });
+        if (folder != folders.end())
+          read_library(*folder / *library, result.materials);
         else
-          notes.push_back("The material library " + in_quotes(*library) + " of " + moving.name
-                          + " is missing: copy it into the run's directory.");
+          result.missing.push_back(*library);
       }
-    return materials;
+    return result;
   }
-} // namespace Exemplar::Live
+} // namespace Exemplar
