@@ -325,7 +325,7 @@ namespace Exemplar
       return extent;
     }
 
-    /// Unit normals at the vertices: means over the faces, weighted by their areas.
+    /// Unit normals at the vertices: means over the faces, weighted by their angles.
     std::vector<SurfaceMesh::Vertex>
     normals_of(const std::vector<std::vector<unsigned int>> &faces,
                const std::vector<SurfaceMesh::Vertex>       &places)
@@ -338,8 +338,15 @@ namespace Exemplar
           normal = plus(normal, 1.,
                         cross(minus(places[face[i]], places[face[0]]),
                               minus(places[face[i + 1]], places[face[0]])));
-        for (const unsigned int vertex : face)
-          normals[vertex] = plus(normals[vertex], 1., normal);
+        const double length = norm(normal);
+        for (std::size_t i = 0; length > 0. && i < face.size(); ++i)
+        {
+          const auto  &x     = places[face[i]];
+          const auto   next  = minus(places[face[(i + 1) % face.size()]], x);
+          const auto   last  = minus(places[face[(i + face.size() - 1) % face.size()]], x);
+          const double angle = std::atan2(norm(cross(next, last)), dot(next, last));
+          normals[face[i]]   = plus(normals[face[i]], angle / length, normal);
+        }
       }
       for (auto &normal : normals)
         if (const double length = norm(normal); length > 0.)
