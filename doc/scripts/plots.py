@@ -5,7 +5,7 @@ import subprocess
 BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#56b4e9"
 BLACK, GREY = "#000000", "#777777"
 # Colours that the colour-blind can tell apart, after Okabe and Ito, without their yellow, which is faint on white.
-# exemplar study has the same (source/study/study_plot.cc); tests/scenes/test_study.py compares.
+# exemplar study has the same (source/study/study_report.cc); tests/scenes/test_study.py compares.
 PALETTE = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK, GREY)
 MARKS = (7, 5, 9, 11, 13)  # of gnuplot: a disc, a square, triangles up and down, a diamond
 

@@ -2,17 +2,25 @@
 #include <exemplar/algebra/lbfgs.h>
 #include <exemplar/algebra/long_vectors.h>
 
+#include <algorithm>
+
 namespace Exemplar
 {
   void
-  Lbfgs::add_pair(const std::vector<double> &s, const std::vector<double> &y)
+  Lbfgs::add_pair(std::vector<double> &s, std::vector<double> &y)
   {
     const double curvature = exchange->sum(dot(s, y));
     if (!(curvature > 0.))
       return;
     if (pairs.size() == max_pairs)
-      pairs.pop_front();
-    pairs.push_back({ s, y, 1. / curvature });
+      std::rotate(pairs.begin(), pairs.begin() + 1, pairs.end()); // the oldest becomes the newest
+    else
+      pairs.emplace_back();
+    Pair &newest = pairs.back();
+    newest.s.swap(s);
+    newest.y.swap(y);
+    newest.rho = 1. / curvature;
+    newest.inverse_y.clear();
   }
 
   void
@@ -30,5 +38,56 @@ namespace Exemplar
   {
     for (const Pair &pair : pairs)
       add(vector, pair.alpha - pair.rho * exchange->sum(dot(pair.y, vector)), pair.s);
+  }
+
+  LbfgsCorrection
+  Lbfgs::correction(const std::function<void(std::vector<double> &)> &apply)
+  {
+    const std::size_t          k = pairs.size();
+    LbfgsCorrection            correction;
+    dealii::FullMatrix<double> R(k, k), middle(k, k);
+    for (Pair &pair : pairs)
+    {
+      correction.columns.push_back(&pair.s);
+      if (pair.inverse_y.empty())
+      {
+        pair.inverse_y = pair.y;
+        apply(pair.inverse_y);
+      }
+    }
+    for (std::size_t i = 0; i < k; ++i)
+    {
+      correction.columns.push_back(&pairs[i].inverse_y);
+      for (std::size_t j = i; j < k; ++j)
+      {
+        R(i, j)      = exchange->sum(dot(pairs[i].s, pairs[j].y));
+        middle(i, j) = middle(j, i) = exchange->sum(dot(pairs[i].y, pairs[j].inverse_y));
+      }
+      middle(i, i) += R(i, i);
+    }
+    // R^-1, and R^-T (D + Y^T H0 Y) R^-1
+    dealii::FullMatrix<double> inverse(k, k), product(k, k), corner(k, k);
+    for (std::size_t j = 0; j < k; ++j)
+      for (std::size_t i = j + 1; i-- > 0;)
+      {
+        double value = i == j ? 1. : 0.;
+        for (std::size_t l = i + 1; l <= j; ++l)
+          value -= R(i, l) * inverse(l, j);
+        inverse(i, j) = value / R(i, i);
+      }
+    if (k > 0)
+    {
+      middle.mmult(product, inverse);
+      inverse.Tmmult(corner, product);
+    }
+    correction.matrix.reinit(2 * k, 2 * k);
+    for (std::size_t i = 0; i < k; ++i)
+      for (std::size_t j = 0; j < k; ++j)
+      {
+        correction.matrix(i, j)     = corner(i, j);
+        correction.matrix(i, k + j) = -inverse(j, i);
+        correction.matrix(k + i, j) = -inverse(i, j);
+      }
+    return correction;
   }
 } // namespace Exemplar

@@ -3,6 +3,8 @@
 #include <exemplar/algebra/linear_prediction.h>
 #include <exemplar/algebra/long_vectors.h>
 
+#include <algorithm>
+
 namespace Exemplar
 {
   namespace
@@ -34,40 +36,48 @@ namespace Exemplar
   }
 
   void
-  LinearPrediction::add(std::vector<double> vector)
+  LinearPrediction::add(std::vector<double> &vector)
   {
-    if (history.size() == order + 1)
-      history.pop_back();
-    history.push_front(std::move(vector));
+    if (history.size() < order + 1)
+      history.emplace_back();
+    std::rotate(history.begin(), history.end() - 1, history.end());
+    history.front().swap(vector);
     for (std::size_t i = history.size() - 1; i > 0; --i)
       for (std::size_t j = i; j < history.size(); ++j)
         products[i][j] = products[i - 1][j - 1];
     multiply_out(0);
   }
 
-  std::vector<double>
-  LinearPrediction::next() const
+  bool
+  LinearPrediction::find_coefficients()
   {
     const unsigned int m = history.size() - 1;
-    if (m == 0)
-      return history[0];
-    dealii::FullMatrix<double> gram(m, m);
-    std::vector<double>        coefficients(m);
+    gram.reinit(m, m);
+    coefficients.resize(m);
     for (unsigned int i = 0; i < m; ++i)
     {
       coefficients[i] = products[0][i + 1];
       for (unsigned int j = 0; j <= i; ++j)
         gram(i, j) = products[j + 1][i + 1];
     }
+    if (m == 0)
+      return false;
     const double trace = gram.trace();
     for (unsigned int i = 0; i < m; ++i)
       gram(i, i) += ridge * trace;
-    if (!solve_by_cholesky(gram, coefficients))
-      return history[0]; // at rest
-    std::vector<double> next(history[0].size(), 0.);
-    for (unsigned int j = 0; j < m; ++j)
+    return solve_by_cholesky(gram, coefficients);
+  }
+
+  void
+  LinearPrediction::predict(std::vector<double> &next)
+  {
+    next = history[0];
+    if (!find_coefficients())
+      return; // at rest, or the first
+    std::fill(next.begin(), next.end(), 0.);
+    for (unsigned int j = 0; j + 1 < history.size(); ++j)
       Exemplar::add(next, coefficients[j], history[j]);
-    const bool grows = exchange->sum(dot(next, next)) > max_growth * max_growth * products[0][0];
-    return grows ? history[0] : next;
+    if (exchange->sum(dot(next, next)) > max_growth * max_growth * products[0][0])
+      next = history[0];
   }
 } // namespace Exemplar

@@ -176,6 +176,14 @@ namespace Exemplar
   }
 
   template <typename Number>
+  void
+  MultifrontalFactor<Number>::forward(const int supernode, Number *vector, Number *block) const
+  {
+    front_kernels<Number>().forward(*structure, values.data(), inverse_diagonal.data(), supernode,
+                                    supernode + 1, vector, block);
+  }
+
+  template <typename Number>
   std::size_t
   MultifrontalFactor<Number>::memory_consumption() const
   {

@@ -42,6 +42,14 @@ def clothes_of(body):
     return [child for child in body.children_recursive if child.type == "MESH" and child.data.polygons and not child.hide_viewport]
 
 
+def obstacles_of(body, scene):
+    """Meshes with Collision physics that are seen, but for the body and what it wears: what it may not pass."""
+    own = {body, *clothes_of(body)}
+    return [shown for shown in scene.objects
+            if shown.type == "MESH" and shown.data.polygons and shown not in own and not shown.hide_viewport
+            and any(modifier.type == "COLLISION" for modifier in shown.modifiers)]
+
+
 def faces_of(shown):
     """As they are turned in the world: a mirrored object turns them over."""
     turn = -1 if shown.matrix_world.determinant() < 0 else 1
@@ -148,12 +156,24 @@ def handles_of(settings):
     return handles
 
 
-def scene_text(body, settings, scene, poses, painted):
+def write_obstacle(shown, number, scene, directory):
+    """An obstacle at the first frame, and its motion if it has one; its keys."""
+    write_obj(directory / f"obstacle_{number}.obj", evaluated_places(shown), faces_of(shown))
+    keys = {"Shape": f"surface obstacle_{number}.obj", "Friction": f"{shown.collision.friction_factor:.9g}"}
+    places = motion_of(shown, scene)
+    if np.any(places != places[0]):
+        write_mdd(directory / f"obstacle_{number}.mdd", places, np.arange(len(places)) / frames_per_second(scene))
+        keys["Follow_cache"] = f"obstacle_{number}.mdd"
+    return keys
+
+
+def scene_text(body, settings, scene, poses, painted, obstacles):
     rate = frames_per_second(scene)
     keys = Keys([f"Expect the object {body.name} to move through the frames {scene.frame_start} to {scene.frame_end}.",
                  "Written by exemplar's add-on for Blender, which writes it anew when Run is pressed.",
                  *(f"pose_{i}.obj is the shape key {name}." for i, name in enumerate(poses, 1)),
-                 *(f"worn_{i}.obj is the object {child.name}." for i, child in enumerate(clothes_of(body), 1))])
+                 *(f"worn_{i}.obj is the object {child.name}." for i, child in enumerate(clothes_of(body), 1)),
+                 *(f"obstacle_{i}.obj is the object {shown.name}." for i, shown in enumerate(obstacles_of(body, scene), 1))])
     keys.add("", Scene="dynamic")
     scale = scene.unit_settings.scale_length if scene.unit_settings.system != "NONE" else 1.
     mesh = {"File": "body.obj", "Cells": settings.cells, "Repair": str(settings.repair).lower(), "Scale": f"{scale:.9g}"}
@@ -174,6 +194,10 @@ def scene_text(body, settings, scene, poses, painted):
         keys.add("Handles", Names=", ".join(handles))
     for name, of_handle in handles.items():
         keys.add(f"Handles/{name}", **of_handle)
+    if obstacles:
+        keys.add("Obstacles", Names=", ".join(obstacles))
+    for name, of_obstacle in obstacles.items():
+        keys.add(f"Obstacles/{name}", **of_obstacle)
     if scene.use_gravity:
         keys.add("Loads", Gravity=", ".join(f"{g:.9g}" for g in scene.gravity))
     keys.add("Time", Step=f"{1. / rate:.12g}", End=f"{(scene.frame_end - scene.frame_start) / rate:.12g}")
@@ -195,6 +219,8 @@ def write_scene(body, settings, scene, directory):
             write_obj(directory / f"pose_{i}.obj", places, faces)
         for i, child in enumerate(clothes_of(body), 1):
             write_obj(directory / f"worn_{i}.obj", rest_places(child), faces_of(child))
+        obstacles = {f"obstacle {i}": write_obstacle(shown_object, i, scene, directory)
+                     for i, shown_object in enumerate(obstacles_of(body, scene), 1)}
     finally:
         scene.frame_set(shown)
     painted = [name for name in PAINTED if name in body.vertex_groups]
@@ -206,5 +232,5 @@ def write_scene(body, settings, scene, directory):
         places = motion_of(body, scene)
         write_mdd(directory / "rig.mdd", places, np.arange(len(places)) / frames_per_second(scene))
     file = directory / "scene.prm"
-    file.write_text(scene_text(body, settings, scene, poses, painted), encoding="utf-8")
+    file.write_text(scene_text(body, settings, scene, poses, painted, obstacles), encoding="utf-8")
     return file

@@ -200,15 +200,17 @@ namespace Exemplar
   ExampleElasticity
   ExampleParameters::elasticity() const
   {
-    return { constant_in("Example modulus", modulus, 1e-300, 1e300, "a number greater than 0 [Pa]"),
-             constant_in("Example Poisson ratio", poisson_ratio, -1., 0.5,
-                         "a number greater than -1 and less than 0.5") };
+    const ExampleElasticity own{ constant_in("Example modulus", modulus, 1e-300, 1e300,
+                                             "a number greater than 0 [Pa]"),
+                                 constant_in("Example Poisson ratio", poisson_ratio, -1., 0.5,
+                                             "a number greater than -1 and less than 0.5") };
+    return in_use() ? own : ExampleElasticity();
   }
 
   void
   ExampleParameters::check_elasticity() const
   {
-    if (!elasticity().is_own() || !in_use() || energy == ExampleEnergy::blended)
+    if (!elasticity().is_own() || energy == ExampleEnergy::blended)
       return;
     const std::string key = modulus.empty() ? "Example Poisson ratio" : "Example modulus";
     throw UserError("Examples/" + key

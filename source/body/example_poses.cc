@@ -5,11 +5,10 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/example_poses.h>
 #include <exemplar/body/pose_checks.h>
+#include <exemplar/body/regions.h>
 #include <exemplar/body/strain_parts.h>
 #include <exemplar/prm/assignments.h>
 #include <exemplar/prm/expression.h>
-
-#include <deal.II/base/memory_consumption.h>
 
 #include <fmt/core.h>
 
@@ -40,12 +39,12 @@ namespace Exemplar
         return {};
       const unsigned int n_points = points_per_cell(fe_space.element());
       if (!painted.empty())
-        return RegionShares(painted, n_points, mesh.exchange());
+        return painted_regions(painted, n_points, mesh.exchange());
       if (!parameters.weights_per_region)
         return {};
       // beyond the body's size the share of a region is uniform
       const double length = std::min(parameters.region_blend_length, 1e3 * mesh.diameter());
-      return RegionShares(mesh, length, n_points);
+      return regions_of_materials(mesh, length, n_points);
     }
   } // namespace
 
@@ -94,7 +93,7 @@ namespace Exemplar
     {
       const std::vector<dealii::Point<3>> nodes
           = fe_space.numbering().complete(places, "Examples, " + name);
-      ExamplePose pose{ name, dealii::Vector<double>(fe_space.n_dofs()) };
+      ExamplePose pose{ name, Vector(fe_space.n_dofs()) };
       for (unsigned int node = 0; node < nodes.size(); ++node)
         for (unsigned int c = 0; c < 3; ++c)
           pose.positions[3 * node + c] = nodes[node][c];
@@ -149,14 +148,41 @@ namespace Exemplar
       return warnings;
     }
 
-    void
-    round_to_single(dealii::AlignedVector<double> &numbers, dealii::AlignedVector<float> &in_single)
+    std::vector<std::string>
+    names_of(const std::vector<ExamplePose> &poses)
     {
-      in_single.resize_fast(numbers.size());
-      for (std::size_t i = 0; i < numbers.size(); ++i)
-        numbers[i] = in_single[i] = static_cast<float>(numbers[i]);
+      std::vector<std::string> names;
+      for (const ExamplePose &pose : poses)
+        names.push_back(pose.name);
+      return names;
     }
+
+    /// Six numbers xx, yy, zz, yz, xz, xy; their products are those of the nine of the matrices, row by row.
+    const TargetSpace strain_space{ n_symmetric, { 0, 5, 4, 5, 1, 3, 4, 3, 2 } };
   } // namespace
+
+  ExamplePoses::ExamplePoses(const ExampleParameters        &parameters,
+                             const LawsOfCells              &laws,
+                             const Mesh                     &mesh,
+                             const FESpace                  &fe_space,
+                             const Patches                  &patches,
+                             const RegionShares             &shares,
+                             const std::vector<double>      &volumes,
+                             const std::vector<ExamplePose> &poses)
+      : ExampleTargets(names_of(poses),
+                       parameters.in_use() && parameters.include_rest_pose ? 1 : 0,
+                       shares,
+                       volumes,
+                       fe_space.exchange()),
+        fe_space(fe_space), laws(laws), rule{ parameters.acts_on, parameters.in_single_precision },
+        strains(strain_space, *this, volumes, shares),
+        dilatations(
+            { 1, { 0 } }, WeightNumbers(n_weights()), std::vector<double>(patches.size(), 1.)),
+        warnings(review(parameters, mesh, fe_space, poses))
+  {
+    for (const ExamplePose &pose : poses)
+      positions.push_back(pose.positions);
+  }
 
   ExamplePoses::ExamplePoses(const ExampleParameters                &parameters,
                              const LawsOfCells                      &laws,
@@ -166,16 +192,16 @@ namespace Exemplar
                              const Patches                          &patches,
                              const NamedPoses                       &named_poses,
                              const std::vector<std::vector<double>> &painted)
-      : fe_space(fe_space),
-        laws(laws), example_constants{ ExampleConstants().guard_bound,
-                                       parameters.in_use() ? parameters.importance : 0. },
-        regions(make_regions(parameters, mesh, fe_space, painted)),
-        poses(make_poses(parameters, mesh, fe_space, named_poses)),
-        first_strained(parameters.in_use() && parameters.include_rest_pose ? 1 : 0),
-        rule{ parameters.acts_on, parameters.in_single_precision },
-        warnings(review(parameters, mesh, fe_space, poses))
+      : ExamplePoses{ parameters,
+                      laws,
+                      mesh,
+                      fe_space,
+                      patches,
+                      make_regions(parameters, mesh, fe_space, painted),
+                      parameters.in_use() ? fe_space.get_volumes() : std::vector<double>(),
+                      make_poses(parameters, mesh, fe_space, named_poses) }
   {
-    set_parameters(example_constants.importance, cell_material, patches);
+    set_parameters(parameters.importance, cell_material, patches);
   }
 
   void
@@ -183,11 +209,11 @@ namespace Exemplar
                                const Material &cell_material,
                                const Patches  &patches)
   {
-    if (poses.empty())
+    if (size() == 0)
       return;
-    example_constants.importance = importance;
+    set_importance(importance);
     compute_strains(cell_material);
-    gram.compute(*this, fe_space, laws, cell_material, patches);
+    compute_energies(cell_material, patches);
   }
 
   void
@@ -195,97 +221,58 @@ namespace Exemplar
   {
     if (rule.acts_on != ActsOn::all
         || cell_material.has_elasticity_of_examples()) // strains depend on the material
-      set_parameters(example_constants.importance, cell_material, patches);
-    else if (!poses.empty())
-      gram.compute(*this, fe_space, laws, cell_material, patches);
+      set_parameters(importance(), cell_material, patches);
+    else if (size() > 0)
+      compute_energies(cell_material, patches);
   }
 
   void
   ExamplePoses::set_pose(const unsigned int i, const std::vector<dealii::Point<3>> &places)
   {
-    poses[i] = make_pose(poses[i].name, places, fe_space);
+    positions[i] = make_pose(name(i), places, fe_space).positions;
   }
 
   void
   ExamplePoses::compute_strains(const Material &material)
   {
-    example_constants.guard_bound = ExampleConstants().guard_bound;
+    guard_bound = ExampleConstants().guard_bound;
     strains.clear();
-    strains.resize(batched_size(fe_space.n_points(), 6 * n_strained()), 0.);
-    strain_norms.assign(n_weights(), 0.);
-    double &p_0 = example_constants.guard_bound;
+    const bool own = material.has_elasticity_of_examples();
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
-      const CellLaw law = laws[fe_space.cell_of(point)];
-      for (unsigned int i = first_strained; i < size(); ++i)
+      const unsigned int cell = fe_space.cell_of(point);
+      const CellLaw      law  = laws[cell];
+      for (unsigned int i = first_strained(); i < size(); ++i)
       {
-        const Matrix3<double> F    = fe_space.deformation_gradient(point, poses[i].positions);
-        const Matrix3<double> E    = model_strain(law, model_rotation(law, F), F);
-        const unsigned int    cell = fe_space.cell_of(point);
+        const Matrix3<double> F = fe_space.deformation_gradient(point, pose(i));
+        const Matrix3<double> E = model_strain(law, model_rotation(law, F), F);
         const Matrix3<double> part
             = ActingStrain<double>(rule.acts_on, material.whole_of_examples(cell),
                                    material.grain_axes(cell))
                   .of(E);
-        const bool own = material.has_elasticity_of_examples();
-        add_to_stored(strains.data(), point, n_strained(), i - first_strained,
-                      own ? 1. : example_constants.importance * material.importance(cell),
+        add_to_stored(strains.data(), point, n_strained(), i - first_strained(),
+                      own ? 1. : importance() * material.importance(cell),
                       own ? material.blend(cell).drawn_strain(part) : part);
         if (traits_of(law).has_guard)
-          p_0 = min_or_nan(p_0, 0.5 * guard_product(E));
+          guard_bound = min_or_nan(guard_bound, 0.5 * guard_product(E));
       }
     }
     if (rule.is_single)
-      round_to_single(strains, in_single);
-    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-      for_each_weight(point,
-                      [&](const unsigned int weight, const unsigned int i, const double share)
-                      {
-                        const Matrix3<double> E = strain(point, i);
-                        strain_norms[weight]
-                            += fe_space.volume(point) * share * share * contract(E, E);
-                      });
-    fe_space.exchange().sum(strain_norms);
-    p_0 = min_of_all(fe_space.exchange(), p_0);
-    for (double &norm : strain_norms)
-      norm = std::sqrt(norm);
-    if (!std::isfinite(max_entry(strain_norms)) || !std::isfinite(p_0))
+      strains.round_to_single();
+    measure(strains);
+    guard_bound = min_of_all(fe_space.exchange(), guard_bound);
+    if (!std::isfinite(max_entry(norms())) || !std::isfinite(guard_bound))
       throw UserError("Examples: the strains of the poses are not finite numbers, or too large to "
                       "compute with. Are all poses in the unit of the mesh?");
-  }
-
-  std::vector<double>
-  ExamplePoses::volume_fractions() const
-  {
-    if (regions.n_regions() == 1)
-      return { 1. }; // exactly, without rounding of the sum
-    const double        total = fe_space.total_volume();
-    std::vector<double> fraction(regions.n_regions(), 0.);
-    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
-      regions.for_each(point, [&](const unsigned int region, const double share)
-                       { fraction[region] += share * fe_space.volume(point) / total; });
-    fe_space.exchange().sum(fraction);
-    return fraction;
-  }
-
-  std::vector<double>
-  ExamplePoses::volumes_of_weights() const
-  {
-    const double              total      = fe_space.total_volume();
-    const std::vector<double> of_regions = volume_fractions();
-    std::vector<double>       volumes;
-    for (unsigned int weight = 0; weight < n_weights(); ++weight)
-      volumes.push_back(total * of_regions[weight / size()]);
-    return volumes;
   }
 
   std::size_t
   ExamplePoses::memory_consumption() const
   {
-    using dealii::MemoryConsumption::memory_consumption;
     std::size_t of_poses = 0;
-    for (const ExamplePose &pose : poses)
-      of_poses += pose.positions.memory_consumption();
-    return of_poses + strains.memory_consumption() + in_single.memory_consumption()
-           + memory_consumption(strain_norms) + gram.memory_consumption();
+    for (const Vector &pose : positions)
+      of_poses += pose.memory_consumption();
+    return of_poses + strains.memory_consumption() + dilatations.memory_consumption()
+           + ExampleTargets::memory_consumption();
   }
 } // namespace Exemplar

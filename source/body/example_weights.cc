@@ -29,22 +29,22 @@ namespace Exemplar
   namespace
   {
     std::string
-    names_of_examples(const ExamplePoses &poses)
+    names_of_examples(const ExampleTargets &targets)
     {
       std::string names;
-      for (unsigned int example = 0; example < poses.size(); ++example)
-        names += (example == 0 ? "" : " | ") + poses.name(example);
+      for (unsigned int example = 0; example < targets.size(); ++example)
+        names += (example == 0 ? "" : " | ") + targets.name(example);
       return names;
     }
 
     WeightMemory
-    make_memory(const ExampleParameters &parameters, const ExamplePoses &poses)
+    make_memory(const ExampleParameters &parameters, const ExampleTargets &targets)
     {
-      const auto per_weight = [&poses](const double density)
+      const auto per_weight = [&targets](const double density)
       {
         std::vector<double> values;
         if (density > 0.)
-          for (const double volume : poses.volumes_of_weights())
+          for (const double volume : targets.measures_of_weights())
             values.push_back(density * volume);
         return values;
       };
@@ -53,11 +53,11 @@ namespace Exemplar
   } // namespace
 
   ExampleWeights::ExampleWeights(const ExampleParameters &parameters,
-                                 const ExamplePoses      &poses,
+                                 const ExampleTargets    &targets,
                                  const double             unit_energy,
                                  const TimeAxis          &axis)
-      : poses(poses), bounded(parameters.weights == WeightRule::simplex),
-        memory(make_memory(parameters, poses))
+      : targets(targets), bounded(parameters.weights == WeightRule::simplex),
+        memory(make_memory(parameters, targets))
   {
     if (parameters.weights == WeightRule::prescribed && size() > 0)
     {
@@ -112,24 +112,24 @@ namespace Exemplar
   void
   ExampleWeights::compute_form(const ExampleParameters &parameters, const double unit_energy)
   {
-    const unsigned int n = poses.n_weights();
+    const unsigned int n = targets.n_weights();
     penalty.reinit(n, n);
     form.coupled.clear();
-    form.N.reinit(poses.get_regions().n_regions(), n);
+    form.N.reinit(n_regions(), n);
     const double sigma = parameters.ridge(unit_energy);
     // the ridge is scaled by volume fractions, so that equal weights in all regions cost as much as
     // global ones
-    const std::vector<double> fraction = poses.volume_fractions();
+    const std::vector<double> &fraction = targets.fractions();
     for (unsigned int weight = 0; weight < n; ++weight)
-      penalty(weight, weight) = sigma * fraction[weight / poses.size()];
+      penalty(weight, weight) = sigma * fraction[weight / targets.size()];
     if (parameters.energy != ExampleEnergy::scaled)
-      poses.get_gram().add_blended(blended_part(parameters.energy), penalty);
+      targets.add_blended(blended_part(parameters.energy), penalty);
     form.H = penalty;
-    form.H.add(1., poses.get_gram().matrix());
+    form.H.add(1., targets.gram());
     for (unsigned int weight = 0; weight < n; ++weight)
     {
-      form.N(weight / poses.size(), weight) = 1.;
-      if (poses.is_strained(weight))
+      form.N(weight / targets.size(), weight) = 1.;
+      if (targets.is_strained(weight))
         form.coupled.push_back(weight);
     }
   }
@@ -139,8 +139,8 @@ namespace Exemplar
   {
     memory.set_step(std::move(step));
     for (unsigned int weight = 0; memory.creeps() && weight < form.H.m(); ++weight)
-      form.H(weight, weight) = penalty(weight, weight) + poses.get_gram().matrix()(weight, weight)
-                               + memory.stiffness(weight);
+      form.H(weight, weight)
+          = penalty(weight, weight) + targets.gram()(weight, weight) + memory.stiffness(weight);
   }
 
   void
@@ -148,8 +148,8 @@ namespace Exemplar
   {
     const std::string              key            = "Examples/Prescribed weights";
     const std::vector<std::string> lists          = split_trimmed(text, '|');
-    const unsigned int             n_regions      = poses.get_regions().n_regions();
-    const bool                     are_per_region = poses.get_regions().material_id(0).has_value();
+    const unsigned int             n_regions      = targets.n_regions();
+    const bool                     are_per_region = targets.region_id(0).has_value();
     if (lists.size() != 1 && lists.size() != n_regions)
       throw UserError(fmt::format("{} has {} lists separated by |, but {} Give one list for all{}",
                                   key, lists.size(),
@@ -158,20 +158,20 @@ namespace Exemplar
                                   are_per_region ? " or one for each region." : "."));
     for (const std::string &list : lists)
     {
-      if (const std::size_t n = split_trimmed(list, ';').size(); n < poses.size())
+      if (const std::size_t n = split_trimmed(list, ';').size(); n < targets.size())
         throw UserError(
             fmt::format("{} = '{}' has {} {} for {} examples: example {} ({}) lacks one. "
                         "Write one for each, separated by ';', not by commas. The examples are {}.",
-                        key, list, n, n == 1 ? "weight" : "weights", poses.size(), n, poses.name(n),
-                        names_of_examples(poses)));
-      else if (n > poses.size())
+                        key, list, n, n == 1 ? "weight" : "weights", targets.size(), n,
+                        targets.name(n), names_of_examples(targets)));
+      else if (n > targets.size())
         throw UserError(fmt::format(
             "{} = '{}' has {} weights, but there {} only: {}. Write one for each; "
             "Examples/Include rest pose = true adds the rest pose, which is the first.",
             key, list, n,
-            poses.size() == 1 ? "is one example" : fmt::format("are {} examples", poses.size()),
-            names_of_examples(poses)));
-      prescribed.emplace_back(key, list, "t", poses.size());
+            targets.size() == 1 ? "is one example" : fmt::format("are {} examples", targets.size()),
+            names_of_examples(targets)));
+      prescribed.emplace_back(key, list, "t", targets.size());
     }
   }
 
@@ -285,19 +285,19 @@ namespace Exemplar
   void
   ExampleWeights::check_independence(const double unit_energy, const bool has_ridge)
   {
-    const unsigned int               k = n_per_region();
-    const dealii::FullMatrix<double> differences
-        = form_of_differences(poses.get_gram().matrix(), k);
+    const unsigned int               k           = n_per_region();
+    const dealii::FullMatrix<double> differences = form_of_differences(targets.gram(), k);
     const auto second = [k](const unsigned int d) { return d + d / (k - 1) + 1; };
     // strains of 1e-10 are rounding errors of a rest pose
-    const double   of_rounding = std::pow(1e-10 * poses.constants().importance, 2) * unit_energy;
+    const double   of_rounding = std::pow(1e-10 * targets.importance(), 2) * unit_energy;
     const MinPivot least       = min_pivot(differences, of_rounding);
     if (differences.m() == 0 || least.ratio > 1e-8)
       return;
     const unsigned int example = second(least.row) % k;
-    const auto         region  = poses.get_regions().material_id(second(least.row) / k);
+    const auto         region  = targets.region_id(second(least.row) / k);
     const std::string  where   = region ? fmt::format(" in region {}", *region) : "";
-    const std::string which = fmt::format("Example {} ({}){}", example, poses.name(example), where);
+    const std::string  which
+        = fmt::format("Example {} ({}){}", example, targets.name(example), where);
     if (least.ratio < 1e-12 && !has_ridge)
       throw UserError(which
                       + " is an affine combination of the examples before it, so their weights "

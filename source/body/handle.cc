@@ -73,7 +73,8 @@ namespace Exemplar
     p.check();
     const std::string key = "Handles/" + p.name;
     Handle            handle{ p.name,
-                   fe_space.numbering().with_middles(p.select.nodes(mesh, key + "/Select", named_nodes)),
+                   fe_space.numbering().with_middles(
+                                  p.select.nodes(mesh, key + "/Select", named_nodes)),
                    parse_components(p.components, key),
                    Expression(key + "/Motion", p.motion, "xyzt", 3),
                    Expression(key + "/Progress", p.progress, "t", 1),
@@ -100,6 +101,15 @@ namespace Exemplar
     return places;
   }
 
+  dealii::Tensor<1, 3>
+  Handle::displacement(const unsigned int      point,
+                       const dealii::Point<3> &rest,
+                       const double            time) const
+  {
+    return path ? path->displacement(places_in_path[point], progress.value(rest, time))
+                : motion.vector(rest, time);
+  }
+
   std::vector<dealii::Tensor<1, 3>>
   Handle::displacements(const std::vector<dealii::Point<3>> &rest, const double time) const
   {
@@ -107,9 +117,7 @@ namespace Exemplar
       return checked(function(rest, time), rest.size(), "Handles/" + name, time);
     std::vector<dealii::Tensor<1, 3>> result;
     for (unsigned int point = 0; point < nodes.size(); ++point)
-      result.push_back(
-          path ? path->displacement(places_in_path[point], progress.values(rest[point], time)[0])
-               : motion.vector(rest[point], time));
+      result.push_back(displacement(point, rest[point], time));
     return result;
   }
 } // namespace Exemplar

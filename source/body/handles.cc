@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -143,8 +144,30 @@ namespace Exemplar
   }
 
   void
+  Handles::move_by_formulas(const double time, dealii::Vector<double> &positions) const
+  {
+    for (const Handle &handle : handles)
+      for (unsigned int point = 0; point < handle.held_nodes().size(); ++point)
+      {
+        const unsigned int   node  = handle.nodes[point];
+        const auto           rest  = fe_space.rest_position(node);
+        dealii::Tensor<1, 3> moved = handle.displacement(point, rest, time);
+        if (!handle.offsets.empty())
+          moved += handle.offsets[point];
+        for (const unsigned int c : handle.components)
+          positions[3 * node + c] = rest[c] + moved[c];
+      }
+  }
+
+  void
   Handles::move(const double time, dealii::Vector<double> &positions) const
   {
+    if (std::none_of(handles.begin(), handles.end(), [](const Handle &h) { return h.function; }))
+    {
+      const auto action = [&] { move_by_formulas(time, positions); };
+      do_in_agreement(fe_space.exchange(), std::cref(action)); // one process alone may fail
+      return;
+    }
     const Displacements all = displacements(time);
     for (unsigned int h = 0; h < handles.size(); ++h)
       for (unsigned int point = 0; point < handles[h].held_nodes().size(); ++point)
@@ -154,8 +177,7 @@ namespace Exemplar
           positions[3 * node + c] = fe_space.rest_positions()[3 * node + c] + all[h][point][c];
       }
     // motions by functions could not be checked at all times before
-    if (std::any_of(handles.begin(), handles.end(), [](const Handle &h) { return h.function; }))
-      check_agreement(handles, shared_nodes(handles), all, time, mesh, fe_space);
+    check_agreement(handles, shared_nodes(handles), all, time, mesh, fe_space);
   }
 
   bool

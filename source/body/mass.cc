@@ -93,27 +93,29 @@ namespace Exemplar
     }
   }
 
-  OwnSums<Vector>
-  Mass::own_times(const Vector &field) const
+  void
+  Mass::multiply(const Padded &field, Padded &product) const
   {
-    const std::size_t             n = field.size() / 3;
-    dealii::AlignedVector<double> x(4 * n), product(4 * n);
-    for (std::size_t node = 0; node < n; ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        x[4 * node + c] = field[3 * node + c];
-    kernels.multiply_nodes({ row_start.data(), columns.data(), values.data() }, n, x.data(),
-                           product.data());
-    OwnSums<Vector> sums(Vector(field.size()));
-    for (std::size_t node = 0; node < n; ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        (*sums)[3 * node + c] = product[4 * node + c];
-    return sums;
+    product.fill(0.);
+    kernels.multiply_nodes({ row_start.data(), columns.data(), values.data() }, field.size() / 4,
+                           field.data(), product.data());
   }
 
   Vector
   Mass::times(const Vector &field) const
   {
-    return complete(with_others, own_times(field));
+    const std::size_t n = field.size() / 3;
+    Padded            x(4 * n), product;
+    product.resize_fast(4 * n);
+    for (std::size_t node = 0; node < n; ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        x[4 * node + c] = field[3 * node + c];
+    multiply(x, product);
+    OwnSums<Vector> sums(Vector(field.size()));
+    for (std::size_t node = 0; node < n; ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        (*sums)[3 * node + c] = product[4 * node + c];
+    return complete(with_others, std::move(sums));
   }
 
   MotionSums

@@ -10,7 +10,6 @@
 #include <map>
 #include <numeric>
 #include <queue>
-#include <set>
 
 namespace Exemplar
 {
@@ -147,7 +146,10 @@ namespace Exemplar
       {
         patch[cell] = to;
         ++n_cells[to];
-        nodes[to].insert(cells[cell].begin(), cells[cell].end());
+        for (const unsigned int node : cells[cell])
+          if (const auto place = std::lower_bound(nodes[to].begin(), nodes[to].end(), node);
+              place == nodes[to].end() || *place != node)
+            nodes[to].insert(place, node);
       }
 
       /// Let cells without a patch join one with which they share a face, as long as it gains at
@@ -188,28 +190,34 @@ namespace Exemplar
       Choice
       best_choice(const unsigned int cell) const
       {
-        Choice best = { { 4, 0, 0, static_cast<int>(cell), 0 } };
-        for (const auto &[candidate, n_faces] : patches_beside(cell))
+        Choice                            best       = { { 4, 0, 0, static_cast<int>(cell), 0 } };
+        const std::array<unsigned int, 4> candidates = patches_beside(cell);
+        for (const unsigned int candidate : candidates)
         {
+          if (candidate == no_patch)
+            continue;
+          const auto n_faces
+              = static_cast<int>(std::count(candidates.begin(), candidates.end(), candidate));
           int gain = 4;
           for (const unsigned int node : cells[cell])
-            gain -= static_cast<int>(nodes[candidate].count(node));
+            gain -= std::binary_search(nodes[candidate].begin(), nodes[candidate].end(), node);
           best = std::min(best, Choice{ { gain, -n_faces, n_cells[candidate],
                                           static_cast<int>(cell), static_cast<int>(candidate) } });
         }
         return best;
       }
 
-      /// The patches that share faces with a cell of their kind, each with the number of these
-      /// faces.
-      std::map<unsigned int, int>
+      /// The patches, of a cell's kind, behind its faces; no_patch where there is none.
+      std::array<unsigned int, 4>
       patches_beside(const unsigned int cell) const
       {
-        std::map<unsigned int, int> n_faces;
-        for (const unsigned int other : beside[cell])
-          if (other != no_cell && patch[other] != no_patch && kinds[other] == kinds[cell])
-            ++n_faces[patch[other]];
-        return n_faces;
+        std::array<unsigned int, 4> patches;
+        for (unsigned int face = 0; face < 4; ++face)
+        {
+          const unsigned int other = beside[cell][face];
+          patches[face] = other != no_cell && kinds[other] == kinds[cell] ? patch[other] : no_patch;
+        }
+        return patches;
       }
 
       const std::vector<std::array<unsigned int, 4>> &cells;
@@ -218,7 +226,7 @@ namespace Exemplar
       const std::vector<std::array<unsigned int, 4>>  beside;  ///< cells_beside()
       std::vector<unsigned int>                       patch;   ///< patch of each cell
       std::vector<int>                                n_cells; ///< number of cells of each patch
-      std::vector<std::set<unsigned int>>             nodes;   ///< nodes of each patch
+      std::vector<std::vector<unsigned int>>          nodes;   ///< of each patch, ascending
     };
   } // namespace
 

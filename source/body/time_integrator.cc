@@ -27,15 +27,15 @@ namespace Exemplar
       c_last     = 1.;
       c_previous = 0.;
     }
-    base              = state.positions;
-    Vector velocities = state.velocities; // v_star
+    base = state.positions;
     if (c_previous != 0.)
-    {
       base.sadd(c_last, c_previous, state.previous_positions);
-      velocities.sadd(c_last, c_previous, state.previous_velocities);
-    }
-    predicted = base;
-    predicted.add(1. / (gamma + mass_damping), velocities);
+    const double time = 1. / (gamma + mass_damping);
+    predicted         = base;
+    if (c_previous == 0.)
+      predicted.add(time, state.velocities);
+    else
+      predicted.add(time * c_last, state.velocities, time * c_previous, state.previous_velocities);
   }
 
   std::vector<WeightedPositions>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/declared_options.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/exemplar.h>
 #include <exemplar/live/export_page.h>
 #include <exemplar/live/server.h>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <exception>
 #include <filesystem>
@@ -28,6 +30,7 @@ namespace Exemplar::Live
     struct Arguments
     {
       std::string              record;
+      std::optional<double>    floor;                   ///< where it is along gravity's axis [m]
       std::vector<std::string> shown, overrides, hosts; ///< shown: a scene, or outputs of runs
       ListenAt                 place;
       unsigned int             n_threads        = 1;
@@ -68,6 +71,9 @@ Exit status:
           ->allow_extra_args(false);
       app.add_option("--record", arguments.record,
                      "directory in which the session is kept as a scene that plays it again");
+      app.add_option("--floor", arguments.floor,
+                     "a floor at this coordinate [m] along the axis of gravity, z without any; its "
+                     "friction is 0.5");
       app.add_option("--threads", arguments.n_threads, "threads of the solver")
           ->check(CLI::Range(1, 1024))
           ->capture_default_str();
@@ -92,6 +98,40 @@ Exit status:
                          { return other.compare(0, key.size(), key) == 0; }))
           overrides.push_back(setting);
       }
+      return overrides;
+    }
+
+    /// Overrides, and what makes a floor at this coordinate among a scene's obstacles. Throws UserError as SceneFile.
+    std::vector<std::string>
+    with_floor(std::vector<std::string> overrides,
+               const std::string       &scene_file,
+               const double             place)
+    {
+      const SceneFile              scene(scene_file, overrides);
+      const std::array<double, 3> &gravity = scene.get_parameters().loads.gravity;
+      const auto                   steep   = std::max_element(gravity.begin(), gravity.end(),
+                                                              [](const double a, const double b)
+                                                              { return std::abs(a) < std::abs(b); });
+      const std::size_t            axis    = *steep == 0. ? 2 : steep - gravity.begin();
+      std::string                  names;
+      for (const ObstacleParameters &obstacle : scene.get_parameters().obstacles.named)
+      {
+        if (obstacle.name == "floor")
+          throw UserError(
+              "--floor: the scene has an obstacle of this name already. Leave --floor out, or "
+              "rename that in Obstacles/Names.");
+        names += obstacle.name + ", ";
+      }
+      std::array<double, 3> point{}, normal{};
+      point[axis]       = place;
+      normal[axis]      = *steep > 0. ? -1. : 1.;
+      std::string shape = "plane";
+      for (const auto &numbers : { point, normal })
+        for (const double number : numbers)
+          shape += " " + shortest_text(number);
+      overrides.push_back("Obstacles/Names=" + names + "floor");
+      overrides.push_back("Obstacles/floor/Shape=" + shape);
+      overrides.push_back("Obstacles/floor/Friction=0.5");
       return overrides;
     }
 
@@ -202,7 +242,10 @@ Exit status:
     {
       if (arguments.shown.size() > 1)
         throw UserError("exemplar live takes one scene, or one or two output directories of runs.");
-      const SceneFile scene(arguments.shown.front(), with_defaults(arguments.overrides));
+      std::vector<std::string> overrides = with_defaults(arguments.overrides);
+      if (arguments.floor)
+        overrides = with_floor(overrides, arguments.shown.front(), *arguments.floor);
+      const SceneFile scene(arguments.shown.front(), overrides);
       const Access    access(arguments.hosts, host_of(arguments.place));
       const Site      site;
       Stage           stage(scene, arguments.record, arguments.n_threads);

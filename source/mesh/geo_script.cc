@@ -1,14 +1,172 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Language: https://gmsh.info/doc/texinfo/gmsh.html, "Gmsh scripting language".
+#include <exemplar/base/errors.h>
 #include <exemplar/base/words.h>
 #include <exemplar/mesh/geo_script.h>
 
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
 #include <set>
+
+// Language: https://gmsh.info/doc/texinfo/gmsh.html, "Gmsh scripting language".
+
+// Language: https://gmsh.info/doc/texinfo/gmsh.html, "Gmsh scripting language".
 
 namespace Exemplar
 {
   namespace
   {
+    using WordSet = std::set<std::string>;
+    using Kind    = GeoToken::Kind;
+
+    bool
+    is_letter(const char c)
+    {
+      return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+    }
+
+    bool
+    is_digit(const char c)
+    {
+      return c >= '0' && c <= '9';
+    }
+
+    class Tokenizer
+    {
+    public:
+      Tokenizer(const std::string &text, const GeoOrigin &origin) : text(text), origin(origin) {}
+
+      std::vector<GeoToken>
+      read()
+      {
+        while (at < text.size())
+          read_token();
+        return std::move(tokens);
+      }
+
+    private:
+      char
+      peek(const std::size_t offset = 0) const
+      {
+        return at + offset < text.size() ? text[at + offset] : '\n';
+      }
+
+      void
+      read_token()
+      {
+        const char c = peek();
+        if (c == '\n' || (c == '\r' && peek(1) != '\n'))
+          ++origin.line;
+        const auto byte = static_cast<unsigned char>(c);
+        if (std::iscntrl(byte) != 0 && std::isspace(byte) == 0)
+          refuse_geo(origin, "it holds a control character");
+        if (c == '/' && (peek(1) == '/' || peek(1) == '*'))
+          skip_comment(peek(1) == '*');
+        else if (c == '"' || c == '\'')
+          read_string(c);
+        else if (is_letter(c))
+          add(Kind::word, end_of([](const char d) { return is_letter(d) || is_digit(d); }));
+        else if (is_digit(c) || (c == '.' && is_digit(peek(1))))
+          add(Kind::number, end_of_number());
+        else if (std::isspace(byte) != 0)
+          skip_to(at + 1);
+        else
+          add(Kind::sign, at + 1);
+      }
+
+      /// End of the characters for which `belongs` is true.
+      template <typename Belongs>
+      std::size_t
+      end_of(const Belongs &belongs) const
+      {
+        std::size_t end = at;
+        while (end < text.size() && belongs(text[end]))
+          ++end;
+        return end;
+      }
+
+      void
+      add(const Kind kind, const std::size_t end)
+      {
+        tokens.push_back({ kind, text.substr(at, end - at), origin, after_gap });
+        at        = end;
+        after_gap = false;
+      }
+
+      /// Skip blanks and comments.
+      void
+      skip_to(const std::size_t end)
+      {
+        at        = end;
+        after_gap = true;
+      }
+
+      std::size_t
+      end_of_number() const
+      {
+        const auto digits_from = [this](std::size_t end)
+        {
+          while (end < text.size() && is_digit(text[end]))
+            ++end;
+          return end;
+        };
+        const std::size_t end = end_of([](const char c) { return is_digit(c) || c == '.'; });
+        if (end == text.size() || std::tolower(text[end]) != 'e')
+          return end;
+        const bool has_sign
+            = end + 1 < text.size() && (text[end + 1] == '+' || text[end + 1] == '-');
+        const std::size_t exponent = end + (has_sign ? 2 : 1);
+        return digits_from(exponent) > exponent ? digits_from(exponent) : end;
+      }
+
+      void
+      skip_comment(const bool is_block)
+      {
+        const std::size_t found
+            = is_block ? text.find("*/", at + 2) : text.find_first_of("\r\n", at);
+        if (is_block && found == std::string::npos)
+          refuse_geo(origin, "a comment begins here and does not end");
+        const std::size_t end = std::min(found, text.size()) + (is_block ? 2 : 0);
+        origin.line += static_cast<unsigned int>(
+            std::count(text.begin() + static_cast<std::ptrdiff_t>(at),
+                       text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+        skip_to(end);
+      }
+
+      void
+      read_string(const char quote)
+      {
+        const std::size_t end = text.find_first_of(std::string("\r\n") + quote, at + 1);
+        if (end == std::string::npos || text[end] != quote)
+          refuse_geo(origin, "a string begins here and does not end on this line");
+        if (end - at > 1000)
+          refuse_geo(origin, "a string is longer than the 1023 bytes that gmsh reads");
+        // gmsh looks for these words in strings, too, where it skips a part
+        const std::string inside = text.substr(at + 1, end - at - 1);
+        for (const GeoToken &token : Tokenizer(without_quotes(inside), origin).read())
+          if (WordSet{ "EndIf", "EndFor", "Else", "ElseIf", "Return" }.count(token.text) > 0)
+            refuse_geo(origin, "a string holds the word " + token.text
+                                   + ", behind which gmsh may read commands");
+        add(Kind::text, end + 1);
+      }
+
+      static std::string
+      without_quotes(std::string inside)
+      {
+        for (char &c : inside)
+          if (c == '"' || c == '\'' || c == '/')
+            c = ' ';
+        return inside;
+      }
+
+      const std::string    &text;
+      GeoOrigin             origin; ///< origin of the next token
+      std::size_t           at        = 0;
+      bool                  after_gap = true;
+      std::vector<GeoToken> tokens;
+    };
+
     using Tokens = std::vector<GeoToken>;
 
     /// Words that are refused wherever they stand.
@@ -66,6 +224,21 @@ namespace Exemplar
       return "";
     }
   } // namespace
+
+  void
+  refuse_geo(const GeoOrigin &origin, const std::string &what)
+  {
+    throw UserError(fmt::format("{}:{}: {}. A mesh that somebody else made may not run programs or "
+                                "write files. If you trust it, give --allow-commands, or mesh it "
+                                "yourself (gmsh -3 FILE) and set Mesh/File to the .msh.",
+                                *origin.file, origin.line, what));
+  }
+
+  std::vector<GeoToken>
+  tokens_of_geo(const std::string &text, const std::string &name)
+  {
+    return Tokenizer(text, { std::make_shared<const std::string>(name), 1 }).read();
+  }
 
   const GeoToken &
   geo_token(const Tokens &script, const std::size_t place)

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/exchange.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/mesh/distributed_triangulation.h>
 #include <exemplar/mesh/mesh.h>
+#include <exemplar/mesh/mesh_arrays.h>
 #include <exemplar/mesh/mesh_checks.h>
 
+#include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/grid/tria_accessor.h>
+#include <deal.II/grid/tria_description.h>
 #include <deal.II/grid/tria_iterator.h>
 
 #include <fmt/core.h>
@@ -17,6 +20,52 @@ namespace Exemplar
 {
   namespace
   {
+    namespace Description = dealii::TriangulationDescription;
+
+    Description::CellData<3>
+    info_of(const unsigned int cell_in_file, const unsigned int process)
+    {
+      Description::CellData<3> info;
+      info.id                 = dealii::CellId(cell_in_file, {}).to_binary<3>();
+      info.subdomain_id       = process;
+      info.level_subdomain_id = process;
+      info.manifold_id        = dealii::numbers::flat_manifold_id;
+      info.manifold_line_ids.fill(dealii::numbers::flat_manifold_id);
+      info.manifold_quad_ids.fill(dealii::numbers::flat_manifold_id);
+      return info;
+    }
+
+    /// deal.II's parallel::fullydistributed::Triangulation of the cells of this process, in their
+    /// order, with their indices in the whole mesh as numbers of coarse cells. It has no ghost
+    /// cells: contributions of several processes' cells to a node are summed by nodes. Collective
+    /// on `exchange`, which is one over MPI.
+    std::unique_ptr<dealii::Triangulation<3>>
+    make_distributed_triangulation(const MeshArrays                &part,
+                                   const std::vector<unsigned int> &cells_in_file,
+                                   const Exchange                  &exchange)
+    {
+      const MPI_Comm                 communicator = exchange.communicator();
+      Description::Description<3, 3> description;
+      description.comm                 = communicator;
+      description.settings             = Description::default_setting;
+      description.smoothing            = dealii::Triangulation<3>::none;
+      description.coarse_cell_vertices = part.contents.nodes;
+      description.cell_infos.resize(1);
+      for (std::size_t cell = 0; cell < part.cells.size(); ++cell)
+      {
+        dealii::CellData<3> data(4);
+        std::copy(part.cells[cell].begin(), part.cells[cell].end(), data.vertices.begin());
+        data.material_id = part.material_ids[cell];
+        description.coarse_cells.push_back(std::move(data));
+        description.coarse_cell_index_to_coarse_cell_id.push_back(cells_in_file[cell]);
+        description.cell_infos[0].push_back(info_of(cells_in_file[cell], exchange.process()));
+      }
+      auto triangulation
+          = std::make_unique<dealii::parallel::fullydistributed::Triangulation<3>>(communicator);
+      triangulation->create_triangulation(description);
+      return triangulation;
+    }
+
     /// The corners opposite to each corner of a positive tetrahedron,
     /// counterclockwise seen from outside.
     constexpr unsigned int outward_faces[4][3]
@@ -147,6 +196,51 @@ namespace Exemplar
         }
       return data;
     }
+
+    /// The whole mesh as a part.
+    MeshPart
+    whole_part(MeshArrays arrays)
+    {
+      const auto n_cells = static_cast<unsigned int>(arrays.cells.size());
+      MeshPart   part;
+      part.whole = { static_cast<unsigned int>(arrays.contents.nodes.size()),
+                     n_cells,
+                     box_diagonal(arrays.contents.nodes),
+                     { arrays.material_ids.begin(), arrays.material_ids.end() } };
+      part.cells_in_file.resize(n_cells);
+      std::iota(part.cells_in_file.begin(), part.cells_in_file.end(), 0u);
+      part.arrays = std::move(arrays);
+      return part;
+    }
+
+    std::unique_ptr<dealii::Triangulation<3>>
+    make_triangulation(const MeshArrays &arrays)
+    {
+      const auto                      &cells = arrays.cells;
+      std::vector<dealii::CellData<3>> cell_data(cells.size(), dealii::CellData<3>(4));
+      for (std::size_t c = 0; c < cells.size(); ++c)
+      {
+        std::copy(cells[c].begin(), cells[c].end(), cell_data[c].vertices.begin());
+        cell_data[c].material_id = arrays.material_ids[c];
+      }
+      auto result = std::make_unique<dealii::Triangulation<3>>();
+      result->create_triangulation(arrays.contents.nodes, cell_data,
+                                   boundary_data(arrays.boundary_faces));
+      return result;
+    }
+
+    /// Check that deal.II's numbers are the file's, on which everything else relies: 9.5 has begun
+    /// to remove unused vertices when reading.
+    void
+    check_numbering(const dealii::Triangulation<3> &triangulation, const MeshArrays &arrays)
+    {
+      bool same = triangulation.n_active_cells() == arrays.cells.size()
+                  && triangulation.get_vertices() == arrays.contents.nodes;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        for (const unsigned int v : cell->vertex_indices())
+          same = same && cell->vertex_index(v) == arrays.cells[cell->active_cell_index()][v];
+      AssertThrow(same, dealii::ExcMessage("deal.II numbers nodes or cells in another order."));
+    }
   } // namespace
 
   Mesh::Mesh(const MeshParameters &parameters)
@@ -207,54 +301,6 @@ namespace Exemplar
       }
     return lower.distance(upper);
   }
-
-  namespace
-  {
-    /// The whole mesh as a part.
-    MeshPart
-    whole_part(MeshArrays arrays)
-    {
-      const auto n_cells = static_cast<unsigned int>(arrays.cells.size());
-      MeshPart   part;
-      part.whole = { static_cast<unsigned int>(arrays.contents.nodes.size()),
-                     n_cells,
-                     box_diagonal(arrays.contents.nodes),
-                     { arrays.material_ids.begin(), arrays.material_ids.end() } };
-      part.cells_in_file.resize(n_cells);
-      std::iota(part.cells_in_file.begin(), part.cells_in_file.end(), 0u);
-      part.arrays = std::move(arrays);
-      return part;
-    }
-
-    std::unique_ptr<dealii::Triangulation<3>>
-    make_triangulation(const MeshArrays &arrays)
-    {
-      const auto                      &cells = arrays.cells;
-      std::vector<dealii::CellData<3>> cell_data(cells.size(), dealii::CellData<3>(4));
-      for (std::size_t c = 0; c < cells.size(); ++c)
-      {
-        std::copy(cells[c].begin(), cells[c].end(), cell_data[c].vertices.begin());
-        cell_data[c].material_id = arrays.material_ids[c];
-      }
-      auto result = std::make_unique<dealii::Triangulation<3>>();
-      result->create_triangulation(arrays.contents.nodes, cell_data,
-                                   boundary_data(arrays.boundary_faces));
-      return result;
-    }
-
-    /// Check that deal.II's numbers are the file's, on which everything else relies: 9.5 has begun
-    /// to remove unused vertices when reading.
-    void
-    check_numbering(const dealii::Triangulation<3> &triangulation, const MeshArrays &arrays)
-    {
-      bool same = triangulation.n_active_cells() == arrays.cells.size()
-                  && triangulation.get_vertices() == arrays.contents.nodes;
-      for (const auto &cell : triangulation.active_cell_iterators())
-        for (const unsigned int v : cell->vertex_indices())
-          same = same && cell->vertex_index(v) == arrays.cells[cell->active_cell_index()][v];
-      AssertThrow(same, dealii::ExcMessage("deal.II numbers nodes or cells in another order."));
-    }
-  } // namespace
 
   Mesh::Mesh(MshFile contents, const std::string &file_name, const double scale)
       : Mesh(whole_part(check_mesh(std::move(contents), file_name, scale)), file_name, scale)

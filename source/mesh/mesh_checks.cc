@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -199,21 +200,37 @@ namespace Exemplar
   std::vector<CellFace>
   sorted_faces(const Tetrahedra &tetrahedra)
   {
-    std::vector<CellFace> faces;
-    faces.reserve(4 * tetrahedra.nodes.size());
-    for (unsigned int cell = 0; cell < tetrahedra.nodes.size(); ++cell)
+    const auto for_each_face = [&](const auto &function)
     {
-      std::array<unsigned int, 4> nodes = tetrahedra.nodes[cell];
-      std::sort(nodes.begin(), nodes.end());
-      faces.push_back({ { { nodes[1], nodes[2], nodes[3] } }, cell, nodes[0] });
-      faces.push_back({ { { nodes[0], nodes[2], nodes[3] } }, cell, nodes[1] });
-      faces.push_back({ { { nodes[0], nodes[1], nodes[3] } }, cell, nodes[2] });
-      faces.push_back({ { { nodes[0], nodes[1], nodes[2] } }, cell, nodes[3] });
-    }
-    std::sort(
-        faces.begin(), faces.end(),
-        [](const CellFace &a, const CellFace &b)
-        { return std::tie(a.nodes, a.opposite, a.cell) < std::tie(b.nodes, b.opposite, b.cell); });
+      for (unsigned int cell = 0; cell < tetrahedra.nodes.size(); ++cell)
+      {
+        std::array<unsigned int, 4> nodes = tetrahedra.nodes[cell];
+        std::sort(nodes.begin(), nodes.end());
+        function(CellFace{ { { nodes[1], nodes[2], nodes[3] } }, cell, nodes[0] });
+        function(CellFace{ { { nodes[0], nodes[2], nodes[3] } }, cell, nodes[1] });
+        function(CellFace{ { { nodes[0], nodes[1], nodes[3] } }, cell, nodes[2] });
+        function(CellFace{ { { nodes[0], nodes[1], nodes[2] } }, cell, nodes[3] });
+      }
+    };
+    // by least node, as there are few faces at a node: a fifth of the time of sorting them at once
+    std::vector<std::size_t> end;
+    for_each_face(
+        [&](const CellFace &face)
+        {
+          if (face.nodes[0] + 1 >= end.size())
+            end.resize(face.nodes[0] + 2, 0);
+          ++end[face.nodes[0] + 1];
+        });
+    std::partial_sum(end.begin(), end.end(), end.begin());
+    std::vector<CellFace> faces(4 * tetrahedra.nodes.size());
+    for_each_face([&](const CellFace &face) { faces[end[face.nodes[0]]++] = face; });
+    for (std::size_t node = 0, begin = 0; node < end.size(); begin = end[node++])
+      std::sort(faces.begin() + static_cast<std::ptrdiff_t>(begin),
+                faces.begin() + static_cast<std::ptrdiff_t>(end[node]),
+                [](const CellFace &a, const CellFace &b) {
+                  return std::tie(a.nodes, a.opposite, a.cell)
+                         < std::tie(b.nodes, b.opposite, b.cell);
+                });
     return faces;
   }
 
@@ -233,12 +250,13 @@ namespace Exemplar
 
     for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end)
     {
-      std::vector<std::size_t> cells;
-      for (end = begin; end < faces.size() && faces[end].nodes == faces[begin].nodes; ++end)
-        cells.push_back(numbers[faces[end].cell]);
-      if (cells.size() <= 2)
+      for (end = begin; end < faces.size() && faces[end].nodes == faces[begin].nodes;)
+        ++end;
+      if (end - begin <= 2)
         continue;
-      std::vector<std::size_t> corners;
+      std::vector<std::size_t> cells, corners;
+      for (std::size_t i = begin; i < end; ++i)
+        cells.push_back(numbers[faces[i].cell]);
       for (const unsigned int node : faces[begin].nodes)
         corners.push_back(contents.node_numbers[node]);
       throw UserError(name + ": the face with the nodes " + list_numbers(corners)

@@ -2,8 +2,8 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/missing_file.h>
 #include <exemplar/base/text_file.h>
-#include <exemplar/mesh/msh_node_index.h>
 #include <exemplar/mesh/msh_reader.h>
+#include <exemplar/mesh/msh_scanner.h>
 
 #include <fmt/core.h>
 
@@ -11,11 +11,53 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 // Format: https://gmsh.info/doc/texinfo/gmsh.html, "File formats".
 
 namespace Exemplar
 {
+  namespace
+  {
+    /// Map from node numbers to indices. Nearly every file counts its nodes up from the first one,
+    /// so that position is tried before searching.
+    class NodeIndex
+    {
+    public:
+      NodeIndex(const std::vector<std::size_t> &numbers, const MshScanner &scanner)
+      {
+        pairs.reserve(numbers.size());
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+          pairs.emplace_back(numbers[i], i);
+        std::sort(pairs.begin(), pairs.end());
+        for (std::size_t i = 1; i < pairs.size(); ++i)
+          if (pairs[i].first == pairs[i - 1].first)
+            scanner.fail("node number " + std::to_string(pairs[i].first)
+                         + " appears twice. Every node needs its own number: save the mesh anew.");
+      }
+
+      /// Writes the index of `number`; false if there is no such node.
+      bool
+      find(const std::size_t number, std::size_t &index) const
+      {
+        if (pairs.empty())
+          return false;
+        const std::size_t guess = number - pairs.front().first;
+        const auto        pair  = (guess < pairs.size() && pairs[guess].first == number)
+                                      ? pairs.begin() + static_cast<std::ptrdiff_t>(guess)
+                                      : std::lower_bound(pairs.begin(), pairs.end(),
+                                                         std::make_pair(number, std::size_t(0)));
+        if (pair == pairs.end() || pair->first != number)
+          return false;
+        index = pair->second;
+        return true;
+      }
+
+    private:
+      std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    };
+  } // namespace
+
   MshFile
   MshReader::read()
   {

@@ -12,35 +12,6 @@ namespace Exemplar
 {
   namespace
   {
-    /// What the cells of each stripe sum up for each weight, lane by lane.
-    class WeightSums
-    {
-    public:
-      WeightSums(const std::size_t n_stripes, const std::size_t n_weights)
-          : n_weights(n_weights), lanes(n_stripes * n_weights * batch_size)
-      {
-      }
-
-      double *
-      of_stripe(const std::size_t stripe)
-      {
-        return lanes.data() + stripe * n_weights * batch_size;
-      }
-
-      std::vector<double>
-      total() const
-      {
-        std::vector<double> sums(n_weights, 0.);
-        for (std::size_t i = 0; i < lanes.size(); ++i)
-          sums[i / batch_size % n_weights] += lanes[i];
-        return sums;
-      }
-
-    private:
-      const std::size_t             n_weights;
-      dealii::AlignedVector<double> lanes;
-    };
-
     void
     copy_sums(const CellSums &sums, ElasticEvaluation &result)
     {
@@ -146,8 +117,8 @@ namespace Exemplar
   ElasticPotential::rounding_weight_gradient() const
   {
     double maximum = 0.;
-    for (unsigned int weight = 0; weight < parts.examples.n_weights(); ++weight)
-      maximum = max_or_nan(maximum, rounding.stress_norm * parts.examples.strain_norm(weight));
+    for (const double norm : parts.examples.norms())
+      maximum = max_or_nan(maximum, rounding.stress_norm * norm);
     return maximum;
   }
 
@@ -157,7 +128,7 @@ namespace Exemplar
                          const RotationUse          rotations)
   {
     CellTask task         = cells.task(positions, rotations);
-    task.examples         = parts.examples.arrays();
+    task.examples         = parts.examples.get_strains().arrays();
     task.weights          = weights.data();
     task.with_weight_sums = parts.weights.n_unknown() > 0;
     return task;
@@ -191,9 +162,9 @@ namespace Exemplar
         penalty += form(v, w) * weights[w];
       result.energy += 0.5 * penalty * weights[v];
       result.weight_gradient[v] += penalty + memory.force(v, weights[v]);
-      result.weight_scale = max_or_nan(result.weight_scale,
-                                       stress_norm * examples.strain_norm(v) + std::abs(penalty)
-                                           + memory.force_scale(v, weights[v]));
+      result.weight_scale
+          = max_or_nan(result.weight_scale, stress_norm * examples.norms()[v] + std::abs(penalty)
+                                                + memory.force_scale(v, weights[v]));
     }
     result.energy_memory = memory.energy(weights);
   }
@@ -226,9 +197,9 @@ namespace Exemplar
         block->write_pressures({ positions, weights });
     CellTask cell_task = task(positions, weights, rotations);
     cell_task.with_weight_sums &= linear_term == nullptr;
-    NodalSums            &nodal_sums = cells.get_nodal_sums();
-    std::vector<CellSums> stripes(nodal_sums.n_stripes());
-    WeightSums            weight_sums(stripes.size(), parts.weights.n_unknown());
+    NodalSums &nodal_sums = cells.get_nodal_sums();
+    stripe_sums.assign(nodal_sums.n_stripes(), CellSums());
+    weight_sums.reinit(stripe_sums.size(), parts.weights.n_unknown());
     nodal_sums.clear();
     nodal_sums.for_each_stripe(
         [&](const std::size_t stripe, const std::size_t begin, const std::size_t end, double *sums)
@@ -238,21 +209,19 @@ namespace Exemplar
                              {
                                cells.loops().evaluate(of_law, begin, end, sums,
                                                       weight_sums.of_stripe(stripe),
-                                                      stripes[stripe]);
+                                                      stripe_sums[stripe]);
                              });
         });
     CellSums sums;
-    for (const CellSums &stripe : stripes)
+    for (const CellSums &stripe : stripe_sums)
       sums += stripe;
     ElasticSums own(std::move(result)); // for its memory
     copy_sums(sums, *own);
-    own->weight_gradient = weight_sums.total();
-    own->weight_scale    = 0.;
-    own->gradient.reinit(parts.fe_space.n_dofs());
-    own->force_scale.reinit(parts.fe_space.n_nodes());
+    weight_sums.total(own->weight_gradient);
+    own->weight_scale = 0.;
     for (const auto &block : blocks)
       block->add({ positions, weights }, own);
-    nodal_sums.add_to(own->gradient, own->force_scale);
+    nodal_sums.copy_to(own->gradient, own->force_scale);
     result = complete(parts.fe_space.exchange(), std::move(own));
     add_penalty(weights, result);
     if (linear_term != nullptr)
@@ -263,7 +232,7 @@ namespace Exemplar
   ElasticPotential::weight_linear_term(const Vector &positions, const RotationUse rotations)
   {
     const CellTask cell_task = task(positions, {}, rotations);
-    WeightSums     weight_sums(cells.get_nodal_sums().n_stripes(), parts.examples.n_weights());
+    weight_sums.reinit(cells.get_nodal_sums().n_stripes(), parts.examples.n_weights());
     cells.get_dilatation().clear_flags();
     cells.get_nodal_sums().for_each_stripe(
         [&](const std::size_t stripe, const std::size_t begin, const std::size_t end, double *)
@@ -274,7 +243,8 @@ namespace Exemplar
                                                                 weight_sums.of_stripe(stripe));
                              });
         });
-    std::vector<double> linear_term = weight_sums.total();
+    std::vector<double> linear_term;
+    weight_sums.total(linear_term);
     for (const auto &block : blocks)
     {
       block->read_dilatations(positions);

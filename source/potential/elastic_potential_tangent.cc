@@ -40,7 +40,7 @@ namespace Exemplar
         add_force(point, of_point.response(M));
         if (sums->weight_gradient.empty())
           return;
-        parts.examples.for_each_weight(
+        parts.examples.get_strains().for_each_weight(
             point,
             [&](const unsigned int weight, const unsigned int i, const double share)
             {
@@ -133,7 +133,7 @@ namespace Exemplar
             { cells.loops().coupling(of_law, convex, point / batch_size, forces.data()); });
       for (unsigned int p = 0; p < n_rows && point % points_per_cell(element) == 0; ++p)
         dof[p] = parts.free_dofs.free_index(3 * cells.node(point, p / 3) + p % 3);
-      examples.for_each_weight(
+      examples.get_strains().for_each_weight(
           point,
           [&](const unsigned int weight, const unsigned int i, const double share)
           {

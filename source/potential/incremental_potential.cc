@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace Exemplar
 {
@@ -83,23 +82,26 @@ namespace Exemplar
     if (integrator != nullptr)
     {
       integrator->begin_step(start, step_size);
-      in_dynamic_step = true;
-      body.begin_step(integrator->stiffness_damping_factor(), integrator->history(start));
+      in_dynamic_step      = true;
+      const double damping = integrator->stiffness_damping_factor();
+      body.begin_step(damping,
+                      damping > 0. ? integrator->history(start) : std::vector<WeightedPositions>());
     }
     if (weights.get_memory().in_use())
       weights.set_step(integrator != nullptr ? integrator->weight_step(start)
                                              : WeightStep{ start.weights, {} });
     for (const auto &term : terms)
       term->begin_step(start, step_size);
-    renew_terms(start);
+    renew_terms(start, true);
   }
 
   TermChange
-  IncrementalPotential::renew_terms(const State &at)
+  IncrementalPotential::renew_terms(const State &at, const bool with_gaps)
   {
     TermChange change = TermChange::none;
     for (const auto &term : terms)
-      change = std::max(change, term->renew({ at.positions, at.weights }));
+      if (with_gaps || term->gap_width() == 0.)
+        change = std::max(change, term->renew({ at.positions, at.weights }));
     change = static_cast<TermChange>(
         std::lround(free_dofs.exchange().max(static_cast<double>(change))));
     if (change == TermChange::couplings)
@@ -108,9 +110,9 @@ namespace Exemplar
   }
 
   TermChange
-  IncrementalPotential::renew(const State &at, Evaluation &evaluation)
+  IncrementalPotential::renew(const State &at, Evaluation &evaluation, const bool is_solved)
   {
-    const TermChange change = renew_terms(at);
+    const TermChange change = renew_terms(at, is_solved);
     if (change != TermChange::none)
       add_terms(at.positions, evaluation);
     return change;
@@ -121,14 +123,11 @@ namespace Exemplar
   {
     end.history = body.advance_history(end.positions);
     end.dissipated += weights.get_memory().dissipation(end.weights).total();
-    std::vector<double> of_terms;
     for (const auto &term : terms)
     {
-      of_terms.push_back(term->dissipation(end).value_or(0.));
+      end.dissipated += free_dofs.exchange().sum(term->dissipation(end).value_or(0.));
       term->end_step(end);
     }
-    free_dofs.exchange().sum(of_terms);
-    end.dissipated = std::accumulate(of_terms.begin(), of_terms.end(), end.dissipated);
   }
 
   bool
@@ -213,9 +212,10 @@ namespace Exemplar
       evaluation.term_energies.push_back(own->energy - before);
     }
     exchange.sum(evaluation.term_energies);
-    ElasticEvaluation sums = complete(exchange, std::move(own));
-    evaluation.gradient.swap(sums.gradient);
-    evaluation.force_scale.swap(sums.force_scale);
+    evaluation.gradient.swap(own->gradient);
+    evaluation.force_scale.swap(own->force_scale);
+    exchange.assemble(evaluation.gradient.begin(), 3);
+    exchange.assemble(evaluation.force_scale.begin(), 1);
     evaluation.gradient += evaluation.elastic.gradient;
     evaluation.force_scale += evaluation.elastic.force_scale;
     evaluation.potential = evaluation.elastic.energy + evaluation.elastic.energy_damping
@@ -242,6 +242,67 @@ namespace Exemplar
                                          body.rounding_weight_gradient());
     residual.multipliers      = std::move(of_weights.multipliers);
     return residual;
+  }
+
+  double
+  IncrementalPotential::max_step_to(const double  time,
+                                    const Vector &positions,
+                                    const Vector &displacement) const
+  {
+    double part = std::numeric_limits<double>::infinity();
+    for (const auto &term : terms)
+      part = std::min(part, term->max_step_to(time, positions, displacement));
+    return min_of_all(free_dofs.exchange(), part);
+  }
+
+  std::string
+  IncrementalPotential::limit_to(const double  time,
+                                 const Vector &positions,
+                                 const Vector &displacement) const
+  {
+    for (const auto &term : terms)
+    {
+      const bool limits = term->max_step_to(time, positions, displacement) < 1.;
+      if (const std::string who = free_dofs.exchange().first_text(
+              limits ? term->limit_to(time, positions, displacement) : "");
+          !who.empty())
+        return who;
+    }
+    return "";
+  }
+
+  double
+  IncrementalPotential::gap_width() const
+  {
+    double width = 0.;
+    for (const auto &term : terms)
+      width = std::max(width, term->gap_width());
+    return width;
+  }
+
+  std::vector<Gap>
+  IncrementalPotential::gaps(const Vector &positions, const double range) const
+  {
+    std::vector<Gap> all;
+    for (const auto &term : terms)
+      term->append_gaps(positions, range, all);
+    return all;
+  }
+
+  void
+  IncrementalPotential::move_to(const double time)
+  {
+    for (const auto &term : terms)
+      term->move_to(time);
+  }
+
+  bool
+  IncrementalPotential::moves_between(const double time, const double other_time) const
+  {
+    bool moves = false;
+    for (const auto &term : terms)
+      moves |= term->moves_between(time, other_time);
+    return free_dofs.exchange().any(moves);
   }
 
   double

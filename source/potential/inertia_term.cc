@@ -29,21 +29,25 @@ namespace Exemplar
   {
     if (!in_step)
       return;
-    Vector difference = at.positions;
-    difference -= integrator.predicted_positions();
-    const OwnSums<Vector> M_times = mass.own_times(difference);
-    const Vector         &product = *M_times;
-    const double          factor  = integrator.mass_factor();
-    double                energy  = 0.;
-    for (unsigned int node = 0; node < sums->force_scale.size(); ++node)
+    const Vector     &predicted = integrator.predicted_positions();
+    const std::size_t n         = sums->force_scale.size();
+    const double      factor    = integrator.mass_factor();
+    double            energy    = 0.;
+    difference.resize(4 * n);
+    product.resize(4 * n);
+    for (std::size_t node = 0; node < n; ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        difference[4 * node + c] = at.positions[3 * node + c] - predicted[3 * node + c];
+    mass.multiply(difference, product);
+    for (std::size_t node = 0; node < n; ++node)
     {
       double square = 0.;
-      for (unsigned int dof = 3 * node; dof < 3 * node + 3; ++dof)
+      for (unsigned int c = 0; c < 3; ++c)
       {
-        const double force = factor * product[dof];
-        sums->gradient[dof] += force;
+        const double force = factor * product[4 * node + c];
+        sums->gradient[3 * node + c] += force;
         square += force * force;
-        energy += 0.5 * force * difference[dof];
+        energy += 0.5 * force * difference[4 * node + c];
       }
       sums->force_scale[node] += std::sqrt(square);
     }
@@ -95,6 +99,7 @@ namespace Exemplar
   std::size_t
   InertiaTerm::memory_consumption() const
   {
-    return dealii::MemoryConsumption::memory_consumption(mass_values);
+    return dealii::MemoryConsumption::memory_consumption(mass_values)
+           + difference.memory_consumption() + product.memory_consumption();
   }
 } // namespace Exemplar

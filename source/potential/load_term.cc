@@ -35,7 +35,7 @@ namespace Exemplar
   {
     sums->gradient -= force;
     sums->force_scale += force_norms;
-    Vector displacement = at.positions;
+    displacement = at.positions;
     displacement -= fe_space.rest_positions();
     sums->energy -= force * displacement;
   }
@@ -43,6 +43,7 @@ namespace Exemplar
   std::size_t
   LoadTerm::memory_consumption() const
   {
-    return force.memory_consumption() + force_norms.memory_consumption();
+    return force.memory_consumption() + force_norms.memory_consumption()
+           + displacement.memory_consumption();
   }
 } // namespace Exemplar

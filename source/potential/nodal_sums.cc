@@ -54,14 +54,16 @@ namespace Exemplar
   }
 
   void
-  NodalSums::add_to(Vector &forces, Vector &scales)
+  NodalSums::copy_to(Vector &forces, Vector &scales)
   {
     join(values.data(), 4);
+    forces.reinit(3 * n_nodes, true);
+    scales.reinit(n_nodes, true);
     for (std::size_t node = 0; node < n_nodes; ++node)
     {
       for (unsigned int c = 0; c < 3; ++c)
-        forces[3 * node + c] += values[4 * node + c];
-      scales[node] += values[4 * node + 3];
+        forces[3 * node + c] = values[4 * node + c];
+      scales[node] = values[4 * node + 3];
     }
   }
 

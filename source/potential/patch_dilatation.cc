@@ -40,7 +40,8 @@ namespace Exemplar
                                    const FESpace      &fe_space,
                                    const Material     &material)
       : patches(patches), examples(examples), fe_space(fe_space),
-        guard(patches, fe_space, material, examples), means(patches.size(), 0.)
+        guard(patches, fe_space, material, examples), means(patches.size(), 0.),
+        damping(patches.size())
   {
   }
 
@@ -62,10 +63,9 @@ namespace Exemplar
   PatchDilatation::begin_step()
   {
     const StrainDamping &of_cells = cells->get_damping();
-    damping                       = {};
+    leave_step();
     if (of_cells.factor() == 0.)
       return;
-    damping.past_means.assign(patches.size(), 0.);
     damping.factors.assign(patches.size(), of_cells.factor());
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
@@ -82,7 +82,7 @@ namespace Exemplar
   {
     const DilatationField &dilatation = cells->get_dilatation();
     find_means(*scatter, cells->n_threads(), dilatation.traces.data(), means);
-    std::vector<double> mean_squares(patches.size(), 0.);
+    mean_squares.assign(patches.size(), 0.);
     if (dilatation.has(long_cells))
       find_means(*scatter, cells->n_threads(), dilatation.squares.data(), mean_squares);
     guard.find(*cells, positions, means, mean_squares, share());
@@ -90,34 +90,21 @@ namespace Exemplar
       volumes->find(*cells, *scatter);
   }
 
-  double
-  PatchDilatation::target(const unsigned int patch, const std::vector<double> &weights) const
-  {
-    double sum = 0.;
-    for (unsigned int weight = 0; weight < weights.size(); ++weight)
-      sum += weights[weight] * examples.get_gram().patch_dilatation(patch, weight);
-    return sum;
-  }
-
   void
   PatchDilatation::write_pressures(const TermPoint &at)
   {
-    struct Told
-    {
-      double pressure, scale;
-    };
-    std::vector<Told> of_patches(patches.size());
-    const double      root = std::sqrt(3.); // |p I| = sqrt(3) |p|
+    pressures.resize(patches.size());
+    const double root = std::sqrt(3.); // |p I| = sqrt(3) |p|
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      const double lambda = patches.lambda(patch), mean = means[patch];
-      const double D  = target(patch, at.weights);
-      Told        &to = of_patches[patch];
-      to              = { pressure_of_mean(lambda, share(), mean, D),
-                          root * std::abs(lambda) * (share() * std::abs(mean) + std::abs(D)) };
+      const double      lambda = patches.lambda(patch), mean = means[patch];
+      const double      D  = examples.patch_dilatation(patch, at.weights);
+      PressureOnPoints &to = pressures[patch];
+      to                   = { pressure_of_mean(lambda, share(), mean, D),
+                               root * std::abs(lambda) * (share() * std::abs(mean) + std::abs(D)) };
       if (volumes)
         to.scale += root * std::abs(volumes->pressure(patch));
-      if (const double s = damping.factor(patch); s > 0.)
+      if (const double s = damping.factors[patch]; s > 0.)
       {
         const double past = damping.past_means[patch];
         to.pressure += pressure_of_mean(s * lambda, 1., mean, past);
@@ -130,9 +117,9 @@ namespace Exemplar
                   {
                     for (std::size_t point = begin; point < end; ++point)
                     {
-                      const Told &told            = of_patches[patches.of_point(point)];
-                      dilatation.pressures[point] = told.pressure;
-                      dilatation.scales[point]    = told.scale;
+                      const PressureOnPoints &told = pressures[patches.of_point(point)];
+                      dilatation.pressures[point]  = told.pressure;
+                      dilatation.scales[point]     = told.scale;
                     }
                   });
     guard.add_pressures(dilatation);
@@ -145,13 +132,14 @@ namespace Exemplar
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
     {
-      const double stiffness = patches.stiffness(patch), D = target(patch, at.weights);
+      const double stiffness = patches.stiffness(patch),
+                   D         = examples.patch_dilatation(patch, at.weights);
       sums->energy_elastic += energy_of_mean(stiffness, means[patch], 0.);
       sums->energy += energy_of_mean(stiffness, means[patch], D);
       for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
         sums->weight_gradient[weight] -= pressure_of_mean(stiffness, 1., means[patch], D)
-                                         * examples.get_gram().patch_dilatation(patch, weight);
-      if (const double s = damping.factor(patch); s > 0.)
+                                         * examples.patch_dilatation(patch, weight);
+      if (const double s = damping.factors[patch]; s > 0.)
         sums->energy_damping
             += energy_of_mean(s * stiffness, means[patch], damping.past_means[patch]);
     }
@@ -179,15 +167,15 @@ namespace Exemplar
   {
     for (unsigned int patch = 0; patch < patches.size(); ++patch)
       for (unsigned int weight = 0; weight < c.size(); ++weight)
-        c[weight] += patches.stiffness(patch) * means[patch]
-                     * examples.get_gram().patch_dilatation(patch, weight);
+        c[weight]
+            += patches.stiffness(patch) * means[patch] * examples.patch_dilatation(patch, weight);
   }
 
   double
   PatchDilatation::tangent_factor(const unsigned int patch, const Tangent kind) const
   {
     const double s
-        = kind == Tangent::convex ? cells->get_damping().factor() : damping.factor(patch);
+        = kind == Tangent::convex ? cells->get_damping().factor() : damping.factors[patch];
     return (share() + s) * patches.stiffness(patch);
   }
 
@@ -227,8 +215,8 @@ namespace Exemplar
     for (unsigned int weight = 0; weight < examples.n_weights(); ++weight)
       for (unsigned int patch = 0; examples.is_strained(weight) && patch < patches.size(); ++patch)
         scatter->add_column(
-            patch, patches.stiffness(patch) * examples.get_gram().patch_dilatation(patch, weight),
-            b, &columns[free_dofs->local_list().size() * examples.strained_index(weight)]);
+            patch, patches.stiffness(patch) * examples.patch_dilatation(patch, weight), b,
+            &columns[free_dofs->local_list().size() * examples.strained_index(weight)]);
   }
 
   void
@@ -273,6 +261,7 @@ namespace Exemplar
   {
     using dealii::MemoryConsumption::memory_consumption;
     return patches.memory_consumption() + scatter->memory_consumption() + memory_consumption(means)
+           + memory_consumption(mean_squares) + pressures.capacity() * sizeof(PressureOnPoints)
            + memory_consumption(damping.past_means) + memory_consumption(damping.factors)
            + (volumes ? volumes->memory_consumption() : 0);
   }
@@ -365,8 +354,8 @@ namespace Exemplar
     const double change = scatter->product(patch, products.vectors, displacement);
     scatter->add(patch, products.factors[patch] * change, products.vectors, sums->gradient);
     for (unsigned int weight = 0; weight < sums->weight_gradient.size(); ++weight)
-      sums->weight_gradient[weight] -= patches.stiffness(patch) * change
-                                       * examples.get_gram().patch_dilatation(patch, weight);
+      sums->weight_gradient[weight]
+          -= patches.stiffness(patch) * change * examples.patch_dilatation(patch, weight);
     if (products.squares.empty())
       return;
     const double of_square = scatter->product(patch, products.squares, displacement);

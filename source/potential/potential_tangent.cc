@@ -40,7 +40,7 @@ namespace Exemplar
                                      const FreeDofs       &free_dofs,
                                      const PotentialTerms &terms,
                                      const bool            in_parts)
-      : body(body), free_dofs(free_dofs), terms(terms)
+      : body(body), free_dofs(free_dofs), terms(terms), always_in_parts(in_parts)
   {
     make_pattern_of_couplings(in_parts);
     body.attach(pattern);
@@ -88,8 +88,9 @@ namespace Exemplar
   }
 
   void
-  PotentialTangent::assemble_in_parts(const bool in_parts)
+  PotentialTangent::assemble_in_parts(const bool wanted)
   {
+    const bool in_parts = wanted || always_in_parts;
     if (pattern.products_are_apart == in_parts)
       return;
     pattern.products_are_apart = in_parts;
@@ -102,14 +103,16 @@ namespace Exemplar
                                  const std::vector<double> &at_weights,
                                  std::vector<double>       &values,
                                  std::vector<double>       &columns,
-                                 OuterProducts             *products)
+                                 OuterProducts             *products,
+                                 const Terms                which)
   {
     std::fill(values.begin(), values.end(), 0.);
     if (products != nullptr)
       products->clear();
     body.assemble_tangent(kind, positions, at_weights, values, columns, products);
     for (const auto &term : terms)
-      term->add_tangent({ positions, at_weights }, kind, values, columns);
+      if (which == Terms::all || term->gap_width() == 0.)
+        term->add_tangent({ positions, at_weights }, kind, values, columns);
   }
 
   void
@@ -118,19 +121,20 @@ namespace Exemplar
                              const double               convexity,
                              std::vector<double>       &matrix_values,
                              std::vector<double>       &columns,
-                             OuterProducts             *products)
+                             OuterProducts             *products,
+                             const Terms                which)
   {
     Assert(!pattern.products_are_apart || products != nullptr, dealii::ExcInternalError());
     if (!pattern.products_are_apart)
       products = nullptr; // all is on the pattern
     assemble_one(convexity < 1. ? Tangent::exact : Tangent::convex, positions, at_weights,
-                 matrix_values, columns, products);
+                 matrix_values, columns, products, which);
     if (convexity > 0. && convexity < 1.)
     {
       std::vector<double> convex_values(matrix_values.size()), convex_columns;
       OuterProducts       convex_products;
       assemble_one(Tangent::convex, positions, at_weights, convex_values, convex_columns,
-                   products == nullptr ? nullptr : &convex_products);
+                   products == nullptr ? nullptr : &convex_products, which);
       mix(matrix_values, convex_values, convexity);
       mix(columns, convex_columns, convexity);
       if (products != nullptr)

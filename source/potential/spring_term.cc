@@ -1,24 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/potential/nodal_vectors.h>
 #include <exemplar/potential/spring_term.h>
 
 namespace Exemplar
 {
-  namespace
-  {
-    dealii::Tensor<1, 3>
-    at_node(const Vector &field, const unsigned int node)
-    {
-      return dealii::Point<3>(field[3 * node], field[3 * node + 1], field[3 * node + 2]);
-    }
-
-    void
-    add_to(Vector &gradient, const unsigned int node, const dealii::Tensor<1, 3> &force)
-    {
-      for (unsigned int c = 0; c < 3; ++c)
-        gradient[3 * node + c] += force[c];
-    }
-  } // namespace
-
   void
   SpringTerm::attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs)
   {

@@ -193,28 +193,43 @@ namespace Exemplar
     }
   }
 
+  double
+  Expression::component(const unsigned int      i,
+                        const dealii::Point<3> &position,
+                        const double            time) const
+  {
+    parsers->variables = { { position[0], position[1], position[2], time } };
+    const double value = parsers->parsers[i].Eval();
+    if (!std::isfinite(value))
+      throw SolverFailure(parsers->key + ": the formula '" + parsers->texts[i]
+                          + "' is not finite at t = " + shortest_text(time) + ", position ("
+                          + shortest_text(position[0]) + ", " + shortest_text(position[1]) + ", "
+                          + shortest_text(position[2])
+                          + "). Change it, for instance with max() or c ? a : b.");
+    return value;
+  }
+
   std::vector<double>
   Expression::values(const dealii::Point<3> &position, const double time) const
   {
-    parsers->variables = { { position[0], position[1], position[2], time } };
-    std::vector<double> values;
-    for (unsigned int i = 0; i < parsers->parsers.size(); ++i)
-    {
-      values.push_back(parsers->parsers[i].Eval());
-      if (!std::isfinite(values.back()))
-        throw SolverFailure(parsers->key + ": the formula '" + parsers->texts[i]
-                            + "' is not finite at t = " + shortest_text(time) + ", position ("
-                            + shortest_text(position[0]) + ", " + shortest_text(position[1]) + ", "
-                            + shortest_text(position[2])
-                            + "). Change it, for instance with max() or c ? a : b.");
-    }
+    std::vector<double> values(parsers->parsers.size());
+    for (unsigned int i = 0; i < values.size(); ++i)
+      values[i] = component(i, position, time);
     return values;
+  }
+
+  double
+  Expression::value(const dealii::Point<3> &position, const double time) const
+  {
+    return component(0, position, time);
   }
 
   dealii::Tensor<1, 3>
   Expression::vector(const dealii::Point<3> &position, const double time) const
   {
-    const std::vector<double> components = values(position, time);
-    return dealii::Tensor<1, 3>({ components.at(0), components.at(1), components.at(2) });
+    dealii::Tensor<1, 3> components;
+    for (unsigned int i = 0; i < 3; ++i)
+      components[i] = component(i, position, time);
+    return components;
   }
 } // namespace Exemplar

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/message_text.h>
-#include <exemplar/prm/input_names.h>
 #include <exemplar/prm/key_table.h>
 #include <exemplar/prm/remedies.h>
 
@@ -8,6 +7,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <ostream>
 #include <set>
 #include <sstream>
 
@@ -15,6 +15,45 @@ namespace Exemplar
 {
   namespace
   {
+    /// The absolute name of one file. Throws UserError for characters in `unwanted` or unprintable
+    /// ones.
+    std::string
+    absolute_file(const std::string           &file,
+                  const std::filesystem::path &directory,
+                  const std::string           &unwanted)
+    {
+      const std::string path
+          = directory.empty()
+                ? file
+                : std::filesystem::absolute(directory / file).lexically_normal().string();
+      if (path.find_first_of(unwanted) != std::string::npos)
+        throw UserError("The path " + path
+                        + (path.find('#') == std::string::npos
+                               ? " holds a comma, which separates the names of a list"
+                               : " holds a #, which begins a comment in scene files")
+                        + ". Rename the file or its directory.");
+      if (find_unprintable(path) != std::string::npos)
+        throw UserError("The path " + path
+                        + " holds bytes that are no text in UTF-8, which a scene file cannot hold. "
+                          "Rename the file or its directory.");
+      return path;
+    }
+
+    /// The name of an input file, or a list of names separated by commas, made absolute if
+    /// `directory` is not empty. Throws UserError for a name that a scene file cannot hold.
+    std::string
+    absolute_files(const std::string           &value,
+                   const bool                   is_list,
+                   const std::filesystem::path &directory)
+    {
+      if (!is_list)
+        return value.empty() ? value : absolute_file(value, directory, "#");
+      std::string files;
+      for (const std::string &file : split_trimmed(value, ','))
+        files += (files.empty() ? "" : ", ") + absolute_file(file, directory, "#,");
+      return files;
+    }
+
     std::string
     bounds_in_words(const Bounds &bounds)
     {
@@ -50,6 +89,43 @@ namespace Exemplar
                                                  : static_cast<int>(bounds.high) };
     }
   } // namespace
+
+  std::string
+  DeclaredKey::path() const
+  {
+    return Assignment{ subsections, key, "", "" }.path();
+  }
+
+  void
+  print_keys(std::ostream &out, const std::vector<DeclaredKey> &keys, const bool documented)
+  {
+    std::vector<std::string> open;
+    const auto               indent      = [&] { return std::string(2 * open.size(), ' '); };
+    const auto               close_until = [&](const std::vector<std::string> &target)
+    {
+      while (open.size() > target.size() || !std::equal(open.begin(), open.end(), target.begin()))
+      {
+        open.pop_back();
+        out << indent() << "end\n";
+      }
+    };
+    for (const DeclaredKey &key : keys)
+    {
+      close_until(key.subsections);
+      while (open.size() < key.subsections.size())
+      {
+        out << (documented && open.empty() ? "\n" : "") << indent() << "subsection "
+            << key.subsections[open.size()] << '\n';
+        open.push_back(key.subsections[open.size()]);
+      }
+      if (documented)
+        out << indent() << "# " << key.documentation << '\n'
+            << indent() << "# Allowed: " << key.allowed
+            << ". Default: " << (key.default_value.empty() ? "(empty)" : key.default_value) << '\n';
+      out << indent() << "set " << key.key << " = " << key.value << '\n';
+    }
+    close_until({});
+  }
 
   void
   KeyTable::enter_subsection(const std::string &name)

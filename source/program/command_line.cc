@@ -7,28 +7,48 @@
 #include <exemplar/base/program_server.h>
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/base/version.h>
+#include <exemplar/base/whole_program.h>
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/argument_remedies.h>
-#include <exemplar/program/command_line.h>
-#include <exemplar/program/export_command.h>
+#include <exemplar/program/commands.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/joint_run.h>
-#include <exemplar/program/live_program.h>
-#include <exemplar/program/mesh_command.h>
 #include <exemplar/program/number_option.h>
-#include <exemplar/program/pose_command.h>
 #include <exemplar/program/run_program.h>
-#include <exemplar/program/run_scene.h>
 #include <exemplar/study/study.h>
 #include <exemplar/study/study_file.h>
 #include <exemplar/verification/verification.h>
 
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
 
 namespace Exemplar
 {
   namespace
   {
+    /// Replace this process by exemplar-live, the program next to this one, with the same
+    /// arguments; returns only by UserError.
+    [[noreturn]] void
+    become_live_program(char *argv[])
+    {
+      std::error_code             ignored;
+      const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", ignored);
+      const std::string           program = (own.parent_path() / "exemplar-live").string();
+      execv(program.c_str(), argv);
+      throw UserError(program
+                      + " cannot be started, which exemplar live needs: " + std::strerror(errno)
+                      + ". " + build_whole_program + "; or install it whole.");
+    }
+
     /// All arguments of the command line.
     struct Arguments
     {

@@ -2,8 +2,7 @@
 // Stubs of commands that ./demo.sh does not build, with their messages.
 #include <exemplar/base/errors.h>
 #include <exemplar/base/whole_program.h>
-#include <exemplar/program/mesh_command.h>
-#include <exemplar/program/pose_command.h>
+#include <exemplar/program/commands.h>
 #include <exemplar/study/study.h>
 #include <exemplar/verification/verification.h>
 

@@ -4,7 +4,7 @@
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/live/export_gltf.h>
 #include <exemplar/live/export_page.h>
-#include <exemplar/program/export_command.h>
+#include <exemplar/program/commands.h>
 
 #include <fmt/core.h>
 

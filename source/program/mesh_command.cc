@@ -8,7 +8,7 @@
 #include <exemplar/base/text_file.h>
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/mesh/msh_file.h>
-#include <exemplar/program/mesh_command.h>
+#include <exemplar/program/commands.h>
 #include <exemplar/run/output/output_directory.h>
 #include <exemplar/surface/files/numbered_files.h>
 #include <exemplar/surface/making/mesh_making.h>

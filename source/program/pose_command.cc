@@ -6,8 +6,8 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/progress.h>
 #include <exemplar/mesh/mesh_parameters.h>
+#include <exemplar/program/commands.h>
 #include <exemplar/program/interrupt.h>
-#include <exemplar/program/pose_command.h>
 #include <exemplar/run/output/output_directory.h>
 #include <exemplar/surface/files/numbered_files.h>
 #include <exemplar/surface/posing/pose_carrying.h>

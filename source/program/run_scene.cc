@@ -4,11 +4,10 @@
 #include <exemplar/base/launcher.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/progress.h>
+#include <exemplar/program/commands.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/joint_run.h>
 #include <exemplar/program/run_log.h>
-#include <exemplar/program/run_scene.h>
-#include <exemplar/program/run_texts.h>
 #include <exemplar/run/inputs/shared_body.h>
 #include <exemplar/run/output/run_directory.h>
 #include <exemplar/run/output/run_writer.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/python/arrays_to_python.h>
-#include <exemplar/python/body_properties.h>
+#include <exemplar/python/module_parts.h>
 
 #include <fmt/core.h>
 

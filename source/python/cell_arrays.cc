@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/python/arrays_to_python.h>
-#include <exemplar/python/cell_arrays.h>
 #include <exemplar/python/evaluation.h>
+#include <exemplar/python/module_parts.h>
 
 namespace Exemplar::Python
 {

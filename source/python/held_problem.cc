@@ -5,7 +5,6 @@
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/held_problem.h>
-#include <exemplar/python/step_log.h>
 #include <exemplar/python/trajectory.h>
 #include <exemplar/python/unlocked_work.h>
 #include <exemplar/run/adjoint/functional.h>
@@ -25,6 +24,23 @@ namespace Exemplar::Python
 
   namespace
   {
+    /// Report a step to logging.getLogger("exemplar"), at level INFO. Costs nothing unless Python
+    /// has imported logging. The caller holds Python's lock.
+    void
+    log_step(const Problem &problem, const SolveReport &report)
+    {
+      const py::dict modules = py::module_::import("sys").attr("modules");
+      if (!modules.contains("logging")) // nobody listens
+        return;
+      const py::object logging = modules["logging"];
+      const py::object logger  = logging.attr("getLogger")("exemplar");
+      if (logger.attr("isEnabledFor")(logging.attr("INFO")).cast<bool>())
+        logger.attr("info")(
+            fmt::format("step {} of {}, t = {:g}: {}, {} iterations, residual {:.2g}",
+                        problem.state.step, problem.time_axis.n_steps(), problem.state.time,
+                        status_name(report.status), report.iterations, report.residual));
+    }
+
     std::unique_ptr<Problem>
     make_unlocked(Given given)
     {
@@ -331,8 +347,6 @@ namespace Exemplar::Python
   }
 
   // The functions of Python that move handles and look at iterations.
-
-  namespace py = pybind11;
 
   void
   HeldProblem::set_motion(const py::object &name, const py::object &function)

@@ -3,22 +3,13 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/base/version.h>
-#include <exemplar/python/body_properties.h>
-#include <exemplar/python/cell_arrays.h>
 #include <exemplar/python/evaluation.h>
-#include <exemplar/python/examples.h>
 #include <exemplar/python/from_python.h>
-#include <exemplar/python/own_terms.h>
-#include <exemplar/python/plot.h>
-#include <exemplar/python/problem_changes.h>
+#include <exemplar/python/module_parts.h>
 #include <exemplar/python/problem_gradients.h>
-#include <exemplar/python/problem_live.h>
-#include <exemplar/python/problem_state.h>
 #include <exemplar/python/problem_type.h>
-#include <exemplar/python/signatures.h>
 #include <exemplar/python/trajectory.h>
 #include <exemplar/python/unlocked_work.h>
-#include <exemplar/python/written_frame.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/multithread_info.h>
@@ -284,6 +275,7 @@ namespace Exemplar::Python
       add_state(problem);
       add_saved_states(module, problem);
       add_changes(problem);
+      add_obstacles(problem);
       add_evaluation(problem);
       add_cell_arrays(problem);
       add_body(problem);

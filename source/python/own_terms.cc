@@ -2,7 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/function_term.h>
-#include <exemplar/python/own_terms.h>
+#include <exemplar/python/module_parts.h>
 #include <exemplar/python/term_check.h>
 
 #include <fmt/core.h>
@@ -172,7 +172,8 @@ namespace Exemplar::Python
         "middles of edges, too, and the time t [s], and returns energy [J], gradient (n, 3) [N] "
         "and\n"
         "Hessian [N/m]: a sparse array of scipy (3n, 3n), symmetric and without negative\n"
-        "eigenvalues, as it is a part of the exact and the convex tangent; None: zero. Which nodes\n"
+        "eigenvalues, as it is a part of the exact and the convex tangent; None: zero. Which "
+        "nodes\n"
         "it couples, by entries of 0, too, may change from iteration to iteration.\n"
         "It is called in each evaluation, which is slow, and must return the same for the same\n"
         "arguments. Its energy is energies['energy_term_1'] and so on. Raises UserError for what\n"

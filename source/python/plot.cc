@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/python/plot.h>
+#include <exemplar/python/module_parts.h>
 
 namespace Exemplar::Python
 {

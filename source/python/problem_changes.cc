@@ -2,7 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/from_python.h>
-#include <exemplar/python/problem_changes.h>
+#include <exemplar/python/module_parts.h>
 #include <exemplar/run/problem/scene_review.h>
 
 #include <fmt/core.h>

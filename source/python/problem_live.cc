@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
-#include <exemplar/python/problem_live.h>
+#include <exemplar/python/module_parts.h>
 
 #include <fmt/core.h>
 

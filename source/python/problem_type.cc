@@ -9,6 +9,18 @@ namespace Exemplar::Python
 
   namespace
   {
+    /// The problem of a Python object of type exemplar.Problem; null while its __init__ has not
+    /// made one.
+    HeldProblem *
+    held_by(PyObject *object)
+    {
+      if (!is_made(object))
+        return nullptr;
+      const py::detail::value_and_holder held
+          = reinterpret_cast<py::detail::instance *>(object)->get_value_and_holder();
+      return held.holder_constructed() ? held.value_ptr<HeldProblem>() : nullptr;
+    }
+
     extern "C"
     {
       int
@@ -76,16 +88,6 @@ namespace Exemplar::Python
     type.attr("__reduce__") = py::cpp_function([message](const py::object & /*self*/) -> py::object
                                                { throw py::type_error(message); },
                                                py::name("__reduce__"), py::is_method(type));
-  }
-
-  HeldProblem *
-  held_by(PyObject *object)
-  {
-    if (!is_made(object))
-      return nullptr;
-    const py::detail::value_and_holder held
-        = reinterpret_cast<py::detail::instance *>(object)->get_value_and_holder();
-    return held.holder_constructed() ? held.value_ptr<HeldProblem>() : nullptr;
   }
 
   void

@@ -141,7 +141,7 @@ namespace Exemplar::Python
               const std::vector<std::string> &path,
               std::vector<Assignment>        &assignments)
     {
-      if (path.size() != 1 || (path[0] != "Handles" && path[0] != "Loads")
+      if (path.size() != 1 || (path[0] != "Handles" && path[0] != "Loads" && path[0] != "Obstacles")
           || section.contains("Names"))
         return;
       std::string names;
@@ -196,7 +196,7 @@ namespace Exemplar::Python
                                     nearest.empty() ? "The sections are " + all + "."
                                                     : "Did you mean '" + nearest + "'?"));
       }
-      const bool has_names = section == "Handles" || section == "Loads"
+      const bool has_names = section == "Handles" || section == "Loads" || section == "Obstacles"
                              || (section == "Material" && path.back().rfind("region ", 0) == 0);
       if (path.size() == 2 && !has_names)
         throw UserError(

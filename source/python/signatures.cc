@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/python/signatures.h>
+#include <exemplar/python/module_parts.h>
 
 #include <cstdlib>
 #include <cstring>

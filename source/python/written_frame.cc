@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/python/arrays_from_python.h>
-#include <exemplar/python/written_frame.h>
+#include <exemplar/python/module_parts.h>
 #include <exemplar/run/frames/frame_formats.h>
 #include <exemplar/run/output/frame_output.h>
 #include <exemplar/run/output/output_directory.h>

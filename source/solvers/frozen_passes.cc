@@ -35,8 +35,8 @@ namespace Exemplar
       handles.move(time, trial.positions);
       Vector displacement = from.positions;
       displacement.sadd(-1., 1., trial.positions);
-      potential.get_body().add_response(Tangent::convex, displacement, from.positions,
-                                         from.weights, evaluation.elastic);
+      potential.get_body().add_response(Tangent::convex, displacement, from.positions, from.weights,
+                                        evaluation.elastic);
     }
     potential.add_terms(trial.positions, evaluation);
   }
@@ -72,7 +72,7 @@ namespace Exemplar
       StepClock::Scope scope(clock, Phase::evaluate);
       potential.evaluate(trial, RotationUse::update, evaluation);
     }
-    const bool is_same = potential.renew(trial, evaluation) == TermChange::none;
+    const bool is_same = potential.renew(trial, evaluation, true) == TermChange::none;
     const bool goes_on = report_iteration(potential, evaluation, trial, report);
     if (parameters.method == Method::one_pass)
       report.status = SolveStatus::one_pass;

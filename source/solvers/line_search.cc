@@ -53,9 +53,12 @@ namespace Exemplar
   }
 
   void
-  keep_within_max_step(const IncrementalPotential &potential, const Vector &from, Vector &to)
+  keep_within_max_step(const IncrementalPotential &potential,
+                       const Vector               &from,
+                       Vector                     &to,
+                       Vector                     &displacement)
   {
-    Vector displacement = to;
+    displacement = to;
     displacement -= from;
     double part = potential.max_step(from, displacement);
     if (part >= 1.)

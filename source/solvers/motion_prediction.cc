@@ -14,10 +14,10 @@ namespace Exemplar
   void
   MotionPrediction::predict(const State &accepted, const double step_size, State &trial)
   {
-    std::vector<double> velocity;
     free_dofs.gather(accepted.velocities, velocity);
-    velocities.add(std::move(velocity));
-    free_dofs.add(step_size, velocities.next(), trial.positions);
+    velocities.add(velocity);
+    velocities.predict(velocity);
+    free_dofs.add(step_size, velocity, trial.positions);
     handles.move(trial.time, trial.positions);
   }
 } // namespace Exemplar

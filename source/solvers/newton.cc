@@ -32,7 +32,8 @@ namespace Exemplar
                  StepSystem             &system,
                  const Handles          &handles,
                  StepClock              &clock)
-      : parameters(parameters), potential(potential), system(system), handles(handles), clock(clock)
+      : parameters(parameters), potential(potential), system(system), handles(handles),
+        clock(clock), motion(potential, handles)
   {
   }
 
@@ -68,6 +69,7 @@ namespace Exemplar
     StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(time, trial.state);
     const Vector *inertial = potential.inertial_positions();
+    potential.move_to(start.state.time); // where there are gaps
     if (inertial == nullptr || !is_whole_step)
       predict_along_tangent(start, trial, evaluation);
     else
@@ -77,7 +79,18 @@ namespace Exemplar
         trial.state.positions[dof] = (*inertial)[dof];
       handles.move(time, trial.state.positions);
     }
-    keep_within_max_step(potential, start.state.positions, trial.state.positions);
+    bool has_factor = false;
+    motion.move(start.state.time, start.state.positions, time, trial.state.positions,
+                [&](std::vector<double> &forces)
+                {
+                  if (!has_factor)
+                  {
+                    potential.get_body().update_rotations(start.state.positions);
+                    system.factorize_metric(start.state.positions, start.state.weights);
+                  }
+                  has_factor = true;
+                  system.bordered().apply_inverse(forces);
+                });
   }
 
   void
@@ -193,7 +206,9 @@ namespace Exemplar
       go_on_with_same_factor(trial.state, evaluation);
     for (unsigned int iteration = 0;; ++iteration)
     {
-      const bool is_same = potential.renew(trial.state, evaluation) == TermChange::none;
+      const bool is_solved = potential.gap_width() > 0.
+                             && has_residual(parameters.tolerance, trial.state, evaluation);
+      const bool is_same = potential.renew(trial.state, evaluation, is_solved) == TermChange::none;
       const bool goes_on = report_iteration(potential, evaluation, trial.state, report);
       const bool is_met  = is_same && has_met(parameters.tolerance, report);
       if (is_met && (iteration == max_iterations || is_placed(trial.state, evaluation)))

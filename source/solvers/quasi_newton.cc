@@ -9,17 +9,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace Exemplar
 {
   namespace
   {
-    constexpr unsigned int max_iterations        = 7;  ///< with one metric in a step
-    constexpr unsigned int max_metrics           = 2;  ///< that a step may ask for
-    constexpr unsigned int max_changes           = 30; ///< of terms in a step
-    constexpr unsigned int max_halvings          = 5;
-    constexpr double       max_contraction       = 0.9;
-    constexpr double       min_error_over_length = 2.2;
+    constexpr unsigned int max_iterations         = 7;  ///< with one metric in a step
+    constexpr unsigned int max_contact_iterations = 14; ///< the same where gaps matter
+    constexpr unsigned int max_metrics            = 2;  ///< that a step may ask for
+    constexpr unsigned int max_changes            = 30; ///< of terms in a step
+    constexpr unsigned int max_halvings           = 5;
+    /// Of a change that the slope promises, where the model of gaps has none.
+    constexpr double min_promise           = 1e-3;
+    constexpr double max_contraction       = 0.9;
+    constexpr double min_error_over_length = 2.2;
 
     double
     max_displacement(const Exchange &exchange, const State &from, const State &to)
@@ -39,7 +43,8 @@ namespace Exemplar
       : parameters(parameters), potential(potential), system(system), clock(clock),
         newton(parameters, potential, system, handles, clock),
         prediction(potential.get_free_dofs(), handles, parameters.prediction_order),
-        metric(potential.get_free_dofs()), lbfgs(potential.get_free_dofs().exchange())
+        motion(potential, handles), metric(potential.get_free_dofs()),
+        lbfgs(potential.get_free_dofs().exchange()), contact(potential, metric, lbfgs)
   {
   }
 
@@ -51,8 +56,10 @@ namespace Exemplar
   {
     SolveReport report;
     potential.begin_step(state, step_size);
-    State trial = state;
-    trial.time  = time;
+    State &trial = memory.trial;
+    trial        = state;
+    trial.time   = time;
+    in_contact   = false;
     try
     {
       predict(state, step_size, trial, evaluation);
@@ -65,10 +72,7 @@ namespace Exemplar
     {
       report.failure = failure.what();
     }
-    ++history.steps;
-    ++next.steps;
-    history.iterations += report.iterations;
-    history.last_iterations = report.iterations;
+    count_step(report);
     if (report.status == SolveStatus::converged)
     {
       std::swap(state, trial);
@@ -95,18 +99,40 @@ namespace Exemplar
   {
     StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(trial.time, trial);
-    prediction.predict(accepted, step_size, trial);
-    keep_within_max_step(potential, accepted.positions, trial.positions);
     rebuild_metrics(accepted, step_size);
+    prediction.predict(accepted, step_size, trial);
+    bool       has_metric = false;
+    const auto follow     = [&](std::vector<double> &forces)
+    {
+      if (!has_metric)
+        begin_with_metric(accepted, step_size);
+      has_metric = true;
+      metric.rotate_back(forces);
+      metric.apply(forces);
+      metric.rotate_forth(forces);
+    };
+    motion.move(accepted.time, accepted.positions, trial.time, trial.positions,
+                std::cref(follow)); // a copy would ask for memory in each step
     potential.minimize_over_weights(trial, RotationUse::update, evaluation);
-    potential.renew(trial, evaluation);
+    potential.renew(trial, evaluation, false);
+  }
+
+  void
+  QuasiNewton::begin_with_metric(const State &start, const double step_size)
+  {
+    potential.get_body().update_rotations(start.positions);
+    if (metric.empty() || history.mass_factor != potential.mass_factor())
+      renew_metric(start, step_size, start);
+    potential.get_body().node_rotations(node_rotations);
+    metric.rotate(node_rotations);
   }
 
   void
   QuasiNewton::make_metric(const Vector &positions, const std::vector<double> &weights)
   {
+    contact.forget();
     metric.clear(); // whose memory the next one takes
-    system.factorize_roughly(positions, weights, 1.);
+    system.factorize_metric(positions, weights);
     StepClock::Scope scope(clock, Phase::factorize);
     potential.get_body().node_rotations(node_rotations);
     metric.reinit(system.bordered(), inverse_columns(system.bordered()), node_rotations);
@@ -133,7 +159,10 @@ namespace Exemplar
              potential.mass_factor(),
              0,
              0,
-             0 };
+             0,
+             0,
+             0,
+             false };
   }
 
   bool
@@ -143,15 +172,34 @@ namespace Exemplar
         history.couplings != potential.get_tangent().couplings_of_terms());
   }
 
+  bool
+  QuasiNewton::is_slow() const
+  {
+    const bool         touched = history.last_in_contact;
+    const unsigned int iterations
+        = touched ? history.contact_iterations : history.iterations - history.contact_iterations;
+    const unsigned int n = touched ? history.contact_steps : history.steps - history.contact_steps;
+    return n > 0 && history.last_iterations > (metric.cost_in_iterations() + iterations) / n;
+  }
+
+  void
+  QuasiNewton::count_step(const SolveReport &report)
+  {
+    ++history.steps;
+    ++next.steps;
+    history.iterations += report.iterations;
+    history.last_iterations = report.iterations;
+    history.last_in_contact = in_contact;
+    if (in_contact)
+    {
+      ++history.contact_steps;
+      history.contact_iterations += report.iterations;
+    }
+  }
+
   void
   QuasiNewton::find_metric(const State &start, const double step_size, const State &trial)
   {
-    const auto is_slow = [this]
-    {
-      return history.steps > 0
-             && history.last_iterations
-                    > (metric.cost_in_iterations() + history.iterations) / history.steps;
-    };
     if (next.mass_factor != potential.mass_factor())
       next = {};
     // where Newton's method has taken over, there is no metric, but steps since it was made
@@ -170,62 +218,104 @@ namespace Exemplar
     }
   }
 
+  void
+  QuasiNewton::measure(const State &trial, const Evaluation &evaluation, Iteration &iteration) const
+  {
+    potential.get_free_dofs().gather(evaluation.gradient, iteration.gradient);
+    iteration.contact = contact.gradient(trial.positions);
+  }
+
   double
   QuasiNewton::find_step(const State &trial, const Evaluation &evaluation, Iteration &iteration)
   {
     StepClock::Scope     scope(clock, Phase::solve);
     std::vector<double> &step = iteration.rotated;
-    step                      = iteration.gradient;
-    for (double &entry : step)
-      entry = -entry;
+    step.resize(iteration.gradient.size());
+    std::transform(iteration.gradient.begin(), iteration.gradient.end(), step.begin(),
+                   std::negate<>());
     metric.rotate_back(step);
-    const WeightLimits limits = potential.get_weights().limits_of_changes(trial.weights);
-    metric.add_example_forces(
-        metric.find_weight_changes(step, evaluation.elastic.weight_gradient, limits), step);
+    const WeightLimits         limits = potential.get_weights().limits_of_changes(trial.weights);
+    const std::vector<double> &weight_gradient = evaluation.elastic.weight_gradient;
+    std::vector<double>        changes = metric.find_weight_changes(step, weight_gradient, limits);
+    if (!iteration.contact.empty())
+    {
+      std::vector<double> of_gaps = iteration.contact;
+      metric.rotate_back(of_gaps);
+      add(step, 1., of_gaps);
+    }
+    metric.add_example_forces(changes, step);
+    ContactModel::Direction direction;
+    if (contact.is_possible())
+      direction.forces = step;
     lbfgs.before(step);
     metric.apply(step);
     lbfgs.after(step);
+    iteration.gaps.reset();
+    if (contact.is_possible())
+    {
+      direction.step           = std::move(step);
+      direction.weight_changes = std::move(changes);
+      iteration.gaps = contact.add_contact(trial.positions, { weight_gradient, limits }, direction);
+      step           = std::move(direction.step);
+      in_contact |= iteration.gaps != nullptr;
+    }
     iteration.direct = step;
     metric.rotate_forth(iteration.direct);
     return potential.get_free_dofs().exchange().sum(dot(iteration.direct, iteration.gradient));
   }
 
-  bool
-  QuasiNewton::take_step(const Iteration &iteration,
-                         const double     slope,
-                         State           &trial,
-                         Evaluation      &evaluation,
-                         SolveReport     &report)
+  double
+  QuasiNewton::expected_change(const Iteration &iteration,
+                               const double     slope,
+                               const double     length) const
   {
-    const FreeDofs &free_dofs = potential.get_free_dofs();
-    const Merit     before(potential, evaluation);
-    double         &length  = report.step_length;
-    report.newton_decrement = -0.5 * slope;
-    Vector displacement(trial.positions.size());
-    free_dofs.add(1., iteration.direct, displacement);
-    length = std::min(1., potential.max_step(trial.positions, displacement));
-    free_dofs.add(length, iteration.direct, trial.positions);
+    const double linear = length * slope;
+    if (iteration.gaps == nullptr)
+      return linear;
+    // barriers are so far from linear that their slope promises much more than there is
+    const double change
+        = linear + potential.get_free_dofs().exchange().sum(iteration.gaps->beyond_slope(length));
+    return change < 0. && change >= linear ? change : min_promise * linear;
+  }
+
+  bool
+  QuasiNewton::take_step(const double slope,
+                         State       &trial,
+                         Evaluation  &evaluation,
+                         SolveReport &report)
+  {
+    const FreeDofs            &free_dofs = potential.get_free_dofs();
+    const std::vector<double> &step      = memory.iteration.direct;
+    const Merit                before(potential, evaluation);
+    double                    &length = report.step_length;
+    report.newton_decrement           = -0.5 * slope;
+    memory.displacement.reinit(trial.positions.size());
+    free_dofs.add(1., step, memory.displacement);
+    length = std::min(1., potential.max_step(trial.positions, memory.displacement));
+    free_dofs.add(length, step, trial.positions);
     for (unsigned int halving = 0;; ++halving)
     {
       {
         StepClock::Scope scope(clock, Phase::evaluate);
         potential.minimize_over_weights(trial, RotationUse::find_and_forget, evaluation);
       }
-      if (is_better({ potential, evaluation }, before, length * slope))
+      if (is_better({ potential, evaluation }, before,
+                    expected_change(memory.iteration, slope, length)))
         return true;
       if (halving == max_halvings)
       {
-        free_dofs.add(-length, iteration.direct, trial.positions);
+        free_dofs.add(-length, step, trial.positions);
         return false;
       }
       length *= 0.5;
-      free_dofs.add(-length, iteration.direct, trial.positions);
+      free_dofs.add(-length, step, trial.positions);
     }
   }
 
   void
   QuasiNewton::learn(const State               &trial,
-                     const std::vector<double> &old_weights,
+                     const std::vector<double> &old_contact,
+                     std::vector<double>       &old_weights,
                      std::vector<double>       &change,
                      const double               step_length,
                      Iteration                 &iteration)
@@ -236,11 +326,14 @@ namespace Exemplar
       change[i] = iteration.gradient[i] - change[i];
       iteration.rotated[i] *= step_length;
     }
+    if (!old_contact.empty())
+      add(change, 1., old_contact);
+    if (!iteration.contact.empty())
+      add(change, -1., iteration.contact);
     metric.rotate_back(change);
-    std::vector<double> weight_change(old_weights.size());
-    for (std::size_t i = 0; i < weight_change.size(); ++i)
-      weight_change[i] = trial.weights[i] - old_weights[i];
-    metric.add_example_forces(weight_change, change);
+    for (std::size_t i = 0; i < old_weights.size(); ++i)
+      old_weights[i] = trial.weights[i] - old_weights[i];
+    metric.add_example_forces(old_weights, change);
     lbfgs.add_pair(iteration.rotated, change);
   }
 
@@ -274,38 +367,41 @@ namespace Exemplar
                        Evaluation  &evaluation,
                        SolveReport &report)
   {
-    const FreeDofs     &free_dofs = potential.get_free_dofs();
-    std::vector<double> old_gradient, old_weights;
-    Iteration           iteration;
-    unsigned int        n_metrics = 0, n_with_metric = 0, n_changes = 0;
-    free_dofs.gather(evaluation.gradient, iteration.gradient);
+    const FreeDofs      &free_dofs    = potential.get_free_dofs();
+    std::vector<double> &old_gradient = memory.old_gradient;
+    Iteration           &iteration    = memory.iteration;
+    unsigned int         n_metrics = 0, n_with_metric = 0, n_changes = 0;
+    iteration.last_length = iteration.last_contraction = 0.;
+    measure(trial, evaluation, iteration);
     for (bool is_near = false;;)
     {
-      if (potential.renew(trial, evaluation) != TermChange::none)
+      const bool is_solved = is_near || has_met(parameters.tolerance, report);
+      if (potential.renew(trial, evaluation, is_solved) != TermChange::none)
       {
         report_iteration(potential, evaluation, trial, report);
-        free_dofs.gather(evaluation.gradient, iteration.gradient);
+        measure(trial, evaluation, iteration);
         if (++n_changes > max_changes)
           return;
         if (has_other_couplings())
           renew_metric(accepted, step_size, trial);
       }
-      else if (is_near || has_met(parameters.tolerance, report))
+      else if (is_solved)
         break;
-      old_weights             = trial.weights;
-      const double slope      = find_step(trial, evaluation, iteration);
-      const bool   is_descent = n_with_metric < max_iterations && slope < 0.
-                              && take_step(iteration, slope, trial, evaluation, report);
+      memory.old_weights       = trial.weights;
+      const double       slope = find_step(trial, evaluation, iteration);
+      const unsigned int most  = in_contact ? max_contact_iterations : max_iterations;
+      const bool         is_descent
+          = n_with_metric < most && slope < 0. && take_step(slope, trial, evaluation, report);
       if (!is_descent)
       {
         if (++n_metrics > max_metrics)
           return;
-        if (n_with_metric < max_iterations) // the line search gave up, and went back
+        if (n_with_metric < most) // the line search gave up, and went back
         {
           StepClock::Scope scope(clock, Phase::evaluate);
           potential.minimize_over_weights(trial, RotationUse::update, evaluation);
         }
-        free_dofs.gather(evaluation.gradient, iteration.gradient);
+        measure(trial, evaluation, iteration);
         renew_metric(accepted, step_size, trial);
         n_with_metric = 0;
         is_near       = false;
@@ -314,12 +410,14 @@ namespace Exemplar
       ++report.iterations;
       ++n_with_metric;
       old_gradient.swap(iteration.gradient);
-      free_dofs.gather(evaluation.gradient, iteration.gradient);
+      memory.old_contact.swap(iteration.contact);
+      measure(trial, evaluation, iteration);
       const auto norm = [&](const std::vector<double> &vector)
       { return std::sqrt(free_dofs.exchange().sum(dot(vector, vector))); };
       const double old_norm = norm(old_gradient);
       const double ratio    = norm(iteration.gradient) / old_norm;
-      learn(trial, old_weights, old_gradient, report.step_length, iteration);
+      learn(trial, memory.old_contact, memory.old_weights, old_gradient, report.step_length,
+            iteration);
       report_iteration(potential, evaluation, trial, report);
       is_near = has_arrived(accepted, trial, report, ratio, iteration);
     }
@@ -373,8 +471,14 @@ namespace Exemplar
   {
     if (metric.empty())
       return 0;
-    return metric.memory_consumption() + history.positions.memory_consumption()
-           + lbfgs.memory_consumption() + prediction.memory_consumption()
-           + dealii::MemoryConsumption::memory_consumption(node_rotations);
+    using dealii::MemoryConsumption::memory_consumption;
+    const Iteration &iteration = memory.iteration;
+    return metric.memory_consumption() + contact.memory_consumption()
+           + history.positions.memory_consumption() + lbfgs.memory_consumption()
+           + prediction.memory_consumption() + memory_consumption(node_rotations)
+           + memory_consumption(iteration.gradient) + memory_consumption(iteration.direct)
+           + memory_consumption(iteration.rotated) + memory_consumption(memory.old_gradient)
+           + memory.displacement.memory_consumption() + memory.trial.positions.memory_consumption()
+           + memory.trial.velocities.memory_consumption();
   }
 } // namespace Exemplar

@@ -36,7 +36,7 @@ namespace Exemplar
   QuasiNewton::begin_factor(const Vector &positions, const std::vector<double> &weights)
   {
     potential.get_body().node_rotations(next_rotations);
-    return system.begin_factor(positions, weights, 1.);
+    return system.begin_metric(positions, weights);
   }
 
   void

@@ -31,6 +31,7 @@ namespace Exemplar
   {
     if (empty()) // the first time
       find_rotated_nodes();
+    ++n_reinits;
     rotations_then = rotations;
     inverse        = system.keep();
     form           = &system.weight_form();
@@ -70,6 +71,19 @@ namespace Exemplar
     }
   }
 
+  dealii::Tensor<1, 3>
+  RotatedMetric::rotate_back(const unsigned int node, const dealii::Tensor<1, 3> &vector) const
+  {
+    const auto place = std::lower_bound(rotated_nodes.begin(), rotated_nodes.end(), node);
+    if (place == rotated_nodes.end() || *place != node)
+      return vector; // held in part
+    const float         *W = &rotations_since[9 * (place - rotated_nodes.begin())];
+    dealii::Tensor<1, 3> result;
+    for (int i = 0; i < 3; ++i)
+      result[i] = W[i] * vector[0] + W[i + 3] * vector[1] + W[i + 6] * vector[2];
+    return result;
+  }
+
   std::vector<double>
   RotatedMetric::find_weight_changes(const std::vector<double> &forces,
                                      const std::vector<double> &weight_gradient,
@@ -95,6 +109,16 @@ namespace Exemplar
     for (std::size_t j = 0; j < form->coupled.size(); ++j)
       if (const double weight = weights[form->coupled[j]]; weight != 0.)
         add(forces, weight, &G[j * n]);
+  }
+
+  void
+  RotatedMetric::add_example_responses(const std::vector<double> &weights,
+                                       std::vector<double>       &step) const
+  {
+    const std::size_t n = step.size();
+    for (std::size_t j = 0; j < form->coupled.size(); ++j)
+      if (const double weight = weights[form->coupled[j]]; weight != 0.)
+        add(step, weight, &Z[j * n]);
   }
 
   std::size_t

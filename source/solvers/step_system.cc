@@ -21,7 +21,7 @@ namespace Exemplar
                         const std::vector<double> &weights,
                         const double               convexity)
   {
-    assemble(positions, weights, convexity);
+    assemble(positions, weights, convexity, PotentialTangent::Terms::all);
     StepClock::Scope scope(clock, Phase::factorize);
     system->factorize(positions);
   }
@@ -31,21 +31,27 @@ namespace Exemplar
                                 const std::vector<double> &weights,
                                 const double               convexity)
   {
-    assemble(positions, weights, convexity);
+    assemble(positions, weights, convexity, PotentialTangent::Terms::all);
+    StepClock::Scope scope(clock, Phase::factorize);
+    system->factorize_roughly(positions);
+  }
+
+  void
+  StepSystem::factorize_metric(const Vector &positions, const std::vector<double> &weights)
+  {
+    assemble(positions, weights, 1., PotentialTangent::Terms::without_gaps);
     StepClock::Scope scope(clock, Phase::factorize);
     system->factorize_roughly(positions);
   }
 
   bool
-  StepSystem::begin_factor(const Vector              &positions,
-                           const std::vector<double> &weights,
-                           const double               convexity)
+  StepSystem::begin_metric(const Vector &positions, const std::vector<double> &weights)
   {
     follow_pattern();
     BorderedSystem *const next = background.prepare(*system);
     if (next == nullptr)
       return false;
-    assemble(positions, weights, convexity, *next);
+    assemble(positions, weights, 1., PotentialTangent::Terms::without_gaps, *next);
     background.start(positions);
     return true;
   }
@@ -76,24 +82,26 @@ namespace Exemplar
   }
 
   void
-  StepSystem::assemble(const Vector              &positions,
-                       const std::vector<double> &weights,
-                       const double               convexity)
+  StepSystem::assemble(const Vector                 &positions,
+                       const std::vector<double>    &weights,
+                       const double                  convexity,
+                       const PotentialTangent::Terms terms)
   {
     follow_pattern();
-    assemble(positions, weights, convexity, *system);
+    assemble(positions, weights, convexity, terms, *system);
     count_factor();
   }
 
   void
-  StepSystem::assemble(const Vector              &positions,
-                       const std::vector<double> &weights,
-                       const double               convexity,
-                       BorderedSystem            &assembled)
+  StepSystem::assemble(const Vector                 &positions,
+                       const std::vector<double>    &weights,
+                       const double                  convexity,
+                       const PotentialTangent::Terms terms,
+                       BorderedSystem               &assembled)
   {
     StepClock::Scope scope(clock, Phase::assemble);
     potential.get_tangent().assemble(positions, weights, convexity, assembled.matrix_values(),
-                                     assembled.columns(), assembled.outer_products());
+                                     assembled.columns(), assembled.outer_products(), terms);
     potential.get_free_dofs().assemble_columns(assembled.columns(),
                                                assembled.weight_form().coupled.size());
   }

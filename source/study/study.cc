@@ -10,7 +10,6 @@
 #include <exemplar/study/study.h>
 #include <exemplar/study/study_directory.h>
 #include <exemplar/study/study_plan.h>
-#include <exemplar/study/study_plot.h>
 #include <exemplar/study/study_report.h>
 #include <exemplar/study/study_runs.h>
 #include <exemplar/study/study_table.h>

@@ -46,11 +46,11 @@ def change(problem: exemplar.Problem) -> None:
 
 
 def look(problem: exemplar.Problem) -> None:
-    by_node: list[Field] = [problem.positions, problem.rest_positions, problem.gravity, problem.nodal_forces]
+    by_node: list[Field] = [problem.positions, problem.rest_positions, problem.gravity, problem.nodal_forces, problem.contact_forces]
     by_cell: list[Field] = [problem.young, problem.poisson, problem.density, problem.volumes, problem.det_F, problem.strains, problem.stresses,
                             problem.example_strains, problem.shape_gradients, problem.weights]
     of_nodes: list[NDArray[np.uint32]] = [problem.cells, problem.cell_nodes, problem.surface_triangles, *problem.handles.values()]
-    words: list[str] = [*problem.example_names, *problem.warnings, *problem.handles]
+    words: list[str] = [*problem.example_names, *problem.warnings, *problem.handles, *problem.obstacles]
     numbers: list[float] = [problem.time, problem.residual, problem.energies["energy_elastic"], *problem.statistics.values()]
     counts: list[int] = [problem.step_number, problem.n_steps, len(by_node), len(by_cell), len(of_nodes), len(words), len(numbers)]
     measures: exemplar.Measures = problem.energies

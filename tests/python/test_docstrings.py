@@ -23,7 +23,7 @@ NEEDS = {name: package for package, names in {
 
 
 def names():
-    """What examples may refer to: include/exemplar/python/examples_of_names.h."""
+    """What examples may refer to: source/python/examples.cc."""
     problem, static = exemplar.Problem(SCENE), exemplar.Problem({**SCENE, "Scene": "static", "Time": {}, "Solver": {"Tolerance": 1e-9}})
     problem.step()
     with problem.record() as trajectory:

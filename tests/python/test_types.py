@@ -66,7 +66,8 @@ def type_of(value):
     if isinstance(value, list):
         return f"list[{type_of(value[0])}]" if value else "list[str]"
     if type(value) is dict:
-        return f"dict[str, {type_of(next(iter(value.values())))}]"
+        types = {type_of(one) for one in value.values()}
+        return f"dict[str, {types.pop() if len(types) == 1 else 'Any'}]"
     return {"csr_array": "scipy.sparse.csr_array"}.get(type(value).__name__, type(value).__name__)
 
 
@@ -76,10 +77,12 @@ class Values(unittest.TestCase):
         problem = exemplar.Problem(BAR)
         with problem.record() as trajectory:
             report = problem.step()
+        on_floor = exemplar.Problem({**BAR, "Obstacles/Names": "floor", "Obstacles/floor/Shape": "plane 0 0 -9  0 0 1"})
         owners = {"Problem": problem, "State": problem.state, "Report": report, "Trajectory": trajectory}
         for owner, name, said in annotations():
             with self.subTest(f"{owner}.{name}"):
-                self.assertEqual(said.removesuffix(" | None"), type_of(getattr(owners[owner], name)))
+                of = on_floor if name == "obstacles" else owners[owner]
+                self.assertEqual(said.removesuffix(" | None"), type_of(getattr(of, name)))
 
 
 if __name__ == "__main__":

@@ -297,7 +297,7 @@ class Studies(SceneTest):
         from plots import PALETTE, line
         for number in range(3):
             self.assertIn(f"with {line(number)} title", script)
-        source = (REPOSITORY / "source/study/study_plot.cc").read_text()
+        source = (REPOSITORY / "source/study/study_report.cc").read_text()
         self.assertEqual(tuple(re.findall('"(#[0-9a-f]{6})"', source)), PALETTE)
 
     def test_without_gnuplot(self):

@@ -2,7 +2,9 @@
 #ifndef exemplar_kept_inverse_h
 #define exemplar_kept_inverse_h
 
-#include <cstddef>
+#include <exemplar/algebra/inverse_entries.h>
+
+#include <memory>
 #include <vector>
 
 namespace Exemplar
@@ -18,6 +20,13 @@ namespace Exemplar
     virtual void
     apply(std::vector<double> &vector)
         = 0;
+
+    /// Single entries of this inverse, which stay good as long as it does; null if they cost as much as columns.
+    virtual std::unique_ptr<InverseEntries>
+    entries() const
+    {
+      return nullptr;
+    }
 
     /// Cost of making this inverse anew and of solving for n_columns right sides with the new
     /// matrix, in units of one iteration that evaluates the forces and applies the inverse once:

@@ -4,12 +4,23 @@
 
 #include <exemplar/algebra/exchange.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <vector>
 
 namespace Exemplar
 {
+  /// What the pairs of Lbfgs add to an inverse: columns B and a small symmetric matrix M, B M B^T.
+  struct LbfgsCorrection
+  {
+    std::vector<const std::vector<double> *>
+                               columns; ///< of the Lbfgs, as long as it does not change
+    dealii::FullMatrix<double> matrix;
+  };
+
   /// The memory of a quasi-Newton method: pairs of steps s and gradient changes y along them, which
   /// correct an approximate inverse of the Hessian (Nocedal and Wright, Algorithm 7.4).
   class Lbfgs
@@ -26,9 +37,10 @@ namespace Exemplar
       pairs.clear();
     }
 
-    /// Append a pair if its curvature s.y is positive.
+    /// Append a pair if its curvature s.y is positive. Both are swapped for the memory of a pair
+    /// that has left, so their values are lost.
     void
-    add_pair(const std::vector<double> &s, const std::vector<double> &y);
+    add_pair(std::vector<double> &s, std::vector<double> &y);
 
     /// Memory in bytes.
     std::size_t
@@ -36,7 +48,8 @@ namespace Exemplar
     {
       std::size_t bytes = 0;
       for (const Pair &pair : pairs)
-        bytes += sizeof(double) * (pair.s.capacity() + pair.y.capacity());
+        bytes
+            += sizeof(double) * (pair.s.capacity() + pair.y.capacity() + pair.inverse_y.capacity());
       return bytes;
     }
 
@@ -69,13 +82,19 @@ namespace Exemplar
     void
     after(std::vector<double> &vector) const;
 
+    /// The correction as a whole (Byrd, Nocedal and Schnabel, Math. Program. 63, 1994, Theorem 2.2): H = H0 + B M B^T with
+    /// B = [S, H0 Y], where `apply` overwrites a vector by H0 times it, the same one until clear().
+    LbfgsCorrection
+    correction(const std::function<void(std::vector<double> &)> &apply);
+
   private:
     /// A step s and the change y of the gradient along it.
     struct Pair
     {
       std::vector<double> s, y;
-      double              rho;        ///< 1 / s.y
+      double              rho   = 0.; ///< 1 / s.y
       double              alpha = 0.; ///< rho s.vector, of before()
+      std::vector<double> inverse_y;  ///< H0 y, if correction() has wanted it; else empty
 
       template <typename Archive>
       void

@@ -4,6 +4,8 @@
 
 #include <exemplar/algebra/exchange.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <array>
 #include <cstddef>
 #include <deque>
@@ -27,13 +29,14 @@ namespace Exemplar
     {
     }
 
+    /// Append a vector, which is swapped for the memory of one that has left.
     void
-    add(std::vector<double> vector);
+    add(std::vector<double> &vector);
 
-    /// The predicted vector, or the last one if the prediction is more than four times as long.
-    /// Requires a last one.
-    std::vector<double>
-    next() const;
+    /// Overwrite `next` by the predicted vector, or by the last one if the prediction is more than
+    /// four times as long. Requires a last one.
+    void
+    predict(std::vector<double> &next);
 
     /// Memory in bytes.
     std::size_t
@@ -61,12 +64,19 @@ namespace Exemplar
     void
     multiply_out(std::size_t i);
 
+    /// Find the coefficients by which the vectors before the last combine to it best; false if
+    /// there are none, or these vectors are zero.
+    bool
+    find_coefficients();
+
     using Products = std::array<std::array<double, max_order + 1>, max_order + 1>;
 
     const Exchange                 *exchange;
     unsigned int                    order;
-    std::deque<std::vector<double>> history;    ///< the last first, order + 1 at most
-    Products                        products{}; ///< [i][j], i <= j
+    std::deque<std::vector<double>> history;      ///< the last first, order + 1 at most
+    Products                        products{};   ///< [i][j], i <= j
+    dealii::FullMatrix<double>      gram;         ///< memory of find_coefficients()
+    std::vector<double>             coefficients; ///< which it finds
   };
 } // namespace Exemplar
 

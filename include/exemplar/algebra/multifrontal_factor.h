@@ -35,6 +35,10 @@ namespace Exemplar
     void
     solve(std::vector<Number> &columns);
 
+    /// Forward substitution, as FrontKernels::forward, for one supernode.
+    void
+    forward(int supernode, Number *vector, Number *block) const;
+
     /// A power of two: get_scale() times A is factorised, so that it is in the range of single
     /// precision.
     double

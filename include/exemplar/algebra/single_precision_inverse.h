@@ -2,6 +2,7 @@
 #ifndef exemplar_single_precision_inverse_h
 #define exemplar_single_precision_inverse_h
 
+#include <exemplar/algebra/factor_columns.h>
 #include <exemplar/algebra/kept_inverse.h>
 #include <exemplar/algebra/multifrontal_factor.h>
 
@@ -27,6 +28,12 @@ namespace Exemplar
     apply(std::vector<double> &vector) override
     {
       apply_in_single_precision(*factor, vector);
+    }
+
+    std::unique_ptr<InverseEntries>
+    entries() const override
+    {
+      return std::make_unique<FactorColumns>(factor);
     }
 
     double

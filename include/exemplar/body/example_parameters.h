@@ -99,7 +99,7 @@ namespace Exemplar
       return in_use() && (acts_on == ActsOn::along_fibres || acts_on == ActsOn::across_fibres);
     }
 
-    /// C_e of Eq. (38). Throws UserError for an invalid constant.
+    /// C_e of Eq. (38); without values where no examples are in use. Throws UserError for an invalid constant.
     ExampleElasticity
     elasticity() const;
 

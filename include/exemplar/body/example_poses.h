@@ -2,16 +2,13 @@
 #ifndef exemplar_example_poses_h
 #define exemplar_example_poses_h
 
-#include <exemplar/body/example_gram.h>
 #include <exemplar/body/example_parameters.h>
+#include <exemplar/body/example_targets.h>
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/laws_of_cells.h>
 #include <exemplar/body/material.h>
 #include <exemplar/body/patches.h>
-#include <exemplar/body/region_shares.h>
 #include <exemplar/kernels/symmetric.h>
-
-#include <deal.II/base/aligned_vector.h>
 
 #include <string>
 #include <vector>
@@ -37,17 +34,16 @@ namespace Exemplar
   /// An example pose.
   struct ExamplePose
   {
-    std::string            name;      ///< the file or the formula that gives it, for messages
-    dealii::Vector<double> positions; ///< node positions by degree of freedom [m]
+    std::string name;      ///< the file or the formula that gives it, for messages
+    Vector      positions; ///< node positions by degree of freedom [m]
   };
 
-  /// The example poses and their strains eta E_i at every quadrature point, Eqs. (4) and (5),
-  /// computed once; eta is Examples/Importance. E_i is the part that examples act on, Eq. (31).
-  /// Where examples have an elasticity of their own, D_i of Eq. (38) replaces eta E_i. Example 0 is
-  /// the rest pose where it is included. Each example has one weight or, with Weights per region,
-  /// one a region: weight r * size() + i is that of example i in region r. Empty in a scene without
-  /// examples.
-  class ExamplePoses
+  /// The example poses of a body of cells and what they ask for there: the strains eta E_i at every quadrature
+  /// point, Eqs. (4) and (5), computed once; eta is Examples/Importance. E_i is the part that examples act on,
+  /// Eq. (31). Where examples have an elasticity of their own, D_i of Eq. (38) replaces eta E_i. Example 0 is
+  /// the rest pose where it is included. Patches are a second block, of one number each. Each example has one
+  /// weight or, with Weights per region, one a region.
+  class ExamplePoses : public ExampleTargets
   {
   public:
     /// `named_poses` contains the poses of Examples/Poses, and `painted` the values of
@@ -63,26 +59,6 @@ namespace Exemplar
                  const NamedPoses                       &named_poses = {},
                  const std::vector<std::vector<double>> &painted     = {});
 
-    /// Number of examples.
-    unsigned int
-    size() const
-    {
-      return poses.size();
-    }
-
-    /// The regions, which have separate weights; the weights of each region sum to one.
-    const RegionShares &
-    get_regions() const
-    {
-      return regions;
-    }
-
-    unsigned int
-    n_weights() const
-    {
-      return regions.n_regions() * size();
-    }
-
     /// Set the importance, greater than 0, and the material; see the constructor.
     void
     set_parameters(double importance, const Material &cell_material, const Patches &patches);
@@ -96,111 +72,60 @@ namespace Exemplar
     void
     set_pose(unsigned int i, const std::vector<dealii::Point<3>> &places);
 
-    /// Volume fraction of each region, weighted by shares; they sum to one.
-    std::vector<double>
-    volume_fractions() const;
-
-    /// Volume of the region that each weight acts on [m^3].
-    std::vector<double>
-    volumes_of_weights() const;
-
-    /// Name of example i.
-    const std::string &
-    name(const unsigned int i) const
-    {
-      return poses[i].name;
-    }
-
     /// Node positions of example i, by degree of freedom [m].
-    const dealii::Vector<double> &
+    const Vector &
     pose(const unsigned int i) const
     {
-      return poses[i].positions;
+      return positions[i];
+    }
+
+    /// The strains at the quadrature points: six numbers, as ExampleArrays has them.
+    const TargetBlock &
+    get_strains() const
+    {
+      return strains;
     }
 
     /// eta E_i at a quadrature point.
     Matrix3<double>
     strain(const unsigned int point, const unsigned int i) const
     {
-      if (i < first_strained)
+      if (i < first_strained())
         return Matrix3<double>{};
-      return load_stored(strains.data(), point, n_strained(), i - first_strained);
-    }
-
-    /// The arrays of the examples for the kernels.
-    ExampleArrays
-    arrays() const
-    {
-      return { n_strained(),   first_strained,
-               size(),         n_weights(),
-               strains.data(), regions.starts(),
-               regions.list(), in_single.empty() ? nullptr : in_single.data() };
-    }
-
-    /// Call function(weight, example, share) for the weights that act at a point. The rest pose,
-    /// where it is included, has no strain and is left out.
-    template <typename Function>
-    void
-    for_each_weight(const unsigned int point, const Function &function) const
-    {
-      regions.for_each(point,
-                       [&](const unsigned int region, const double share)
-                       {
-                         for (unsigned int i = first_strained; i < size(); ++i)
-                           function(region * size() + i, i, share);
-                       });
-    }
-
-    /// Whether a weight changes the strain anywhere; not so for the rest pose.
-    bool
-    is_strained(const unsigned int weight) const
-    {
-      return weight % size() >= first_strained;
-    }
-
-    unsigned int
-    n_strained_weights() const
-    {
-      return regions.n_regions() * n_strained();
-    }
-
-    /// The index of a weight among the strained ones.
-    unsigned int
-    strained_index(const unsigned int weight) const
-    {
-      return weight / size() * n_strained() + weight % size() - first_strained;
+      return load_stored(strains.data(), point, n_strained(), i - first_strained());
     }
 
     /// eta E(w) = eta sum_i w_i E_i at a point.
     Matrix3<double>
     strain(const unsigned int point, const std::vector<double> &weights) const
     {
-      Matrix3<double> sum{};
-      for_each_weight(point,
-                      [&](const unsigned int weight, const unsigned int i, const double share)
-                      { sum = combine(1., sum, share * weights[weight], strain(point, i)); });
+      SymmetricEntries<double> sum{};
+      strains.add_blend(point, weights, sum.value);
+      return unpack(sum);
+    }
+
+    /// eta dtheta_p/dw of a patch by a weight, Eq. (25): the mean of eta tr E over the volume of
+    /// the patch.
+    double
+    patch_dilatation(const unsigned int patch, const unsigned int weight) const
+    {
+      return dilatations.number(patch, weight, 0);
+    }
+
+    /// eta theta_p(E(w)) of a patch; 0 without examples.
+    double
+    patch_dilatation(const unsigned int patch, const std::vector<double> &weights) const
+    {
+      double sum = 0.;
+      dilatations.add_blend(patch, weights, &sum);
       return sum;
     }
 
-    /// (sum V |eta dE/dw|^2)^(1/2) over the cells [m^(3/2)] for a weight.
-    double
-    strain_norm(const unsigned int weight) const
-    {
-      return strain_norms[weight];
-    }
-
     /// The importance, and a bound of the guard (16) such that it leaves every example as it is.
-    const ExampleConstants &
+    ExampleConstants
     constants() const
     {
-      return example_constants;
-    }
-
-    /// The examples' Gram matrix in energy, and their dilatations of patches.
-    const ExampleGram &
-    get_gram() const
-    {
-      return gram;
+      return { guard_bound, importance() };
     }
 
     const std::vector<std::string> &
@@ -214,26 +139,38 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
-    unsigned int
-    n_strained() const
-    {
-      return size() - first_strained;
-    }
+    ExamplePoses(const ExampleParameters        &parameters,
+                 const LawsOfCells              &laws,
+                 const Mesh                     &mesh,
+                 const FESpace                  &fe_space,
+                 const Patches                  &patches,
+                 const RegionShares             &shares,
+                 const std::vector<double>      &volumes,
+                 const std::vector<ExamplePose> &poses);
 
     void
     compute_strains(const Material &material);
 
+    void
+    compute_dilatations(const Patches &patches);
+
+    TargetEnergy
+    energy_of_cells(const Material &cell_material, const Patches &patches) const;
+
+    TargetEnergy
+    energy_of_patches(const Material &cell_material, const Patches &patches) const;
+
+    /// The dilatations of patches and the forms of the weights.
+    void
+    compute_energies(const Material &cell_material, const Patches &patches);
+
     const FESpace                 &fe_space;
     const LawsOfCells              laws;
-    ExampleConstants               example_constants;
-    const RegionShares             regions;
-    std::vector<ExamplePose>       poses;
-    const unsigned int             first_strained;
+    double                         guard_bound = ExampleConstants().guard_bound;
+    std::vector<Vector>            positions; ///< of the nodes in each example
     const StrainRule               rule;
-    dealii::AlignedVector<double>  strains;   ///< eta E_i, as ExampleArrays has them
-    dealii::AlignedVector<float>   in_single; ///< the same in single precision, if rule.is_single
-    std::vector<double>            strain_norms;
-    ExampleGram                    gram;
+    TargetBlock                    strains;
+    TargetBlock                    dilatations; ///< of patches, with a list for each weight
     const std::vector<std::string> warnings;
   };
 } // namespace Exemplar

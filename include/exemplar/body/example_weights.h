@@ -3,7 +3,8 @@
 #define exemplar_example_weights_h
 
 #include <exemplar/algebra/bordered_system.h>
-#include <exemplar/body/example_poses.h>
+#include <exemplar/body/example_parameters.h>
+#include <exemplar/body/example_targets.h>
 #include <exemplar/body/time_axis.h>
 #include <exemplar/body/weight_memory.h>
 #include <exemplar/prm/expression.h>
@@ -35,20 +36,20 @@ namespace Exemplar
     /// not sum to one in every step, and for weights without penalty if the examples are affinely
     /// dependent.
     ExampleWeights(const ExampleParameters &parameters,
-                   const ExamplePoses      &poses,
+                   const ExampleTargets    &targets,
                    double                   unit_energy,
                    const TimeAxis          &axis);
 
     unsigned int
     size() const
     {
-      return poses.n_weights();
+      return targets.n_weights();
     }
 
     unsigned int
     n_regions() const
     {
-      return poses.get_regions().n_regions();
+      return targets.n_regions();
     }
 
     /// Recompute the quadratic form after a change of the examples, with this unit energy [J]; see
@@ -69,7 +70,7 @@ namespace Exemplar
     unsigned int
     n_per_region() const
     {
-      return poses.size();
+      return targets.size();
     }
 
     /// Yield and creep of the weights; empty unless the scene asks for it.
@@ -178,7 +179,7 @@ namespace Exemplar
     void
     check_independence(double unit_energy, bool has_ridge);
 
-    const ExamplePoses        &poses;
+    const ExampleTargets      &targets;
     const bool                 bounded; ///< whether weights are >= 0
     WeightMemory               memory;
     WeightForm                 form;

@@ -106,6 +106,13 @@ namespace Exemplar
       return volumes[point];
     }
 
+    /// volume() of all points.
+    const std::vector<double> &
+    get_volumes() const
+    {
+      return volumes;
+    }
+
     /// Distribute an amount in a cell to `values` at its nodes, by a rule.
     void
     share_out(double amount, ShareRule rule, unsigned int cell, std::vector<double> &values) const;

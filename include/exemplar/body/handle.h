@@ -40,6 +40,10 @@ namespace Exemplar
     /// Offsets of caught nodes from their prescribed motion; empty if none are caught.
     std::vector<dealii::Tensor<1, 3>> offsets = {};
 
+    /// Prescribed displacement of a node by path or formula, not by a function, as below.
+    dealii::Tensor<1, 3>
+    displacement(unsigned int point, const dealii::Point<3> &rest, double time) const;
+
     /// Prescribed displacements of `nodes`, whose positions at rest are `rest`, at time t [s],
     /// without offsets. Throws SolverFailure if a program's function is not finite, and UserError
     /// if it does not give one displacement for each node.

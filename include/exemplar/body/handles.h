@@ -96,9 +96,9 @@ namespace Exemplar
     set_motion(const std::string &name, Motion motion);
 
     /// Set the held degrees of freedom to their positions at time t [s]. This and are_elsewhere()
-    /// are collective. Throws SolverFailure if a motion is not finite; for motions set by a
-    /// program, UserError if one does not give one displacement for each point, or if overlapping
-    /// handles disagree.
+    /// are collective. Throws, with positions half moved, SolverFailure if a motion is not finite;
+    /// for motions set by a program, UserError if one does not give one displacement for each
+    /// point, or if overlapping handles disagree.
     void
     move(double time, dealii::Vector<double> &positions) const;
 
@@ -158,6 +158,10 @@ namespace Exemplar
     /// axis, or if one of them has caught it.
     void
     check_overlaps(const TimeAxis &axis);
+
+    /// move() where no program has set a motion, by every step, and so without allocation.
+    void
+    move_by_formulas(double time, dealii::Vector<double> &positions) const;
 
     /// Displacements of all handles at time t [s].
     Displacements

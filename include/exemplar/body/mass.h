@@ -8,6 +8,7 @@
 #include <exemplar/body/state.h>
 #include <exemplar/kernels/cell_kernels.h>
 
+#include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/lac/sparse_matrix.h>
 
@@ -44,9 +45,13 @@ namespace Exemplar
     Vector
     times(const Vector &field) const;
 
-    /// Partial sum of times() over the cells of this process.
-    OwnSums<Vector>
-    own_times(const Vector &field) const;
+    /// A field as products take it: four numbers a node, of which the last is not used.
+    using Padded = dealii::AlignedVector<double>;
+
+    /// The partial sum of M times a field over the cells of this process. The product has the size
+    /// of the field.
+    void
+    multiply(const Padded &field, Padded &product) const;
 
     /// Greatest row sum of the consistent matrix [kg].
     double

@@ -2,37 +2,27 @@
 #ifndef exemplar_region_shares_h
 #define exemplar_region_shares_h
 
-#include <exemplar/body/fe_space.h>
-#include <exemplar/kernels/cell_kernels.h>
+#include <exemplar/kernels/example_arrays.h>
 
 #include <optional>
 #include <vector>
 
 namespace Exemplar
 {
-  /// The shares of regions in each cell, by which their example weights act: in [0, 1], with sum
-  /// one, the same at all quadrature points of a cell. Regions are the cells of one material id, or
-  /// are painted; or the whole body is the only one, without a list of shares.
+  /// The shares of regions at each point of a body, by which their example weights act: in [0, 1], with
+  /// sum one. Regions have a number; or the whole body is the only one, without a list of shares.
   class RegionShares
   {
   public:
     /// One region, the whole body.
     RegionShares() = default;
 
-    /// Regions by material id of the whole mesh. Without a blend length [m] a cell belongs to its
-    /// own region alone. With one, shares change smoothly over about this distance, measured inside
-    /// the body: they solve s - l^2 Laplace s = indicator of the region, with natural boundary
-    /// conditions and l = blend_length / (2 sqrt 3), the filter of Lazarov and Sigmund 2011, on
-    /// linear elements; only for a single process.
-    RegionShares(const Mesh &mesh, double blend_length, unsigned int points_per_cell = 1);
-
-    /// Painted regions: for each of them, from number 1 on, its map's value in every cell. Where
-    /// values sum to more than one they are divided by their sum; where they sum to less, the rest
-    /// belongs to region 0, which exists only if there is a rest anywhere. Throws UserError for a
-    /// map that is zero everywhere. Collective.
-    explicit RegionShares(const std::vector<std::vector<double>> &painted,
-                          unsigned int                            points_per_cell = 1,
-                          const Exchange                         &exchange = Exchange::serial());
+    /// The regions `ids`, and lists of shares one after the other, of which the i-th begins at start[i] and
+    /// is that of `n` consecutive points.
+    RegionShares(std::vector<unsigned int>       ids,
+                 const std::vector<std::size_t> &start,
+                 const std::vector<RegionShare> &shares,
+                 unsigned int                    n = 1);
 
     unsigned int
     n_regions() const
@@ -40,9 +30,9 @@ namespace Exemplar
       return ids.empty() ? 1 : ids.size();
     }
 
-    /// Material id or number of a painted region; none for the whole body.
+    /// Number of a region, which is its material id or that of its map; none for the whole body.
     std::optional<unsigned int>
-    material_id(const unsigned int region) const
+    id(const unsigned int region) const
     {
       return ids.empty() ? std::optional<unsigned int>() : ids[region];
     }
@@ -84,13 +74,6 @@ namespace Exemplar
     }
 
   private:
-    void
-    blend(const FESpace &linear, double length);
-
-    /// Give each point the shares of its cell.
-    void
-    spread(unsigned int points_per_cell);
-
     std::vector<unsigned int> ids;
     std::vector<std::size_t>  start;
     std::vector<RegionShare>  shares;

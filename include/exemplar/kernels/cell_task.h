@@ -3,6 +3,7 @@
 #define exemplar_cell_task_h
 
 #include <exemplar/kernels/cell_model.h>
+#include <exemplar/kernels/example_arrays.h>
 #include <exemplar/kernels/lanes.h>
 #include <exemplar/kernels/law_functions.h>
 
@@ -38,27 +39,6 @@ namespace Exemplar
     {
       return (n_cells + batch_size - 1) / batch_size;
     }
-  };
-
-  /// Share of a region in a cell, by which its weights act.
-  struct RegionShare
-  {
-    unsigned int region; ///< index, in ascending order of material ids
-    double       value;
-  };
-
-  /// The examples other than the rest pose, whose strain is zero.
-  struct ExampleArrays
-  {
-    unsigned int       n           = 0; ///< number of these examples
-    unsigned int       first       = 0; ///< index of the first among all examples
-    unsigned int       n_all       = 0; ///< number of all examples
-    unsigned int       n_weights   = 0;
-    const double      *strains     = nullptr; ///< 6 n: xx, yy, zz, yz, xz, xy of each eta E_i
-    const std::size_t *share_start = nullptr; ///< begin of a cell's shares; null: global weights
-    const RegionShare *shares      = nullptr;
-    const float       *in_single
-        = nullptr; ///< the strains once more, if single precision has them exactly
   };
 
   /// Stiffness damping, which adds s C:(e - e*) to the stress.

@@ -5,7 +5,6 @@
 #include <exemplar/live/command.h>
 #include <exemplar/live/settings.h>
 #include <exemplar/live/surface_patch.h>
-#include <exemplar/live/weight_sliders.h>
 #include <exemplar/run/session/session.h>
 
 #include <map>

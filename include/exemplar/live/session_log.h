@@ -2,15 +2,29 @@
 #ifndef exemplar_live_session_log_h
 #define exemplar_live_session_log_h
 
-#include <exemplar/live/c_file.h>
 #include <exemplar/run/session/session.h>
 
+#include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 
 namespace Exemplar::Live
 {
+  /// Deleter that closes a file of std::fopen or std::tmpfile.
+  struct CloseFile
+  {
+    void
+    operator()(std::FILE *file) const
+    {
+      std::fclose(file);
+    }
+  };
+
+  /// An owned file of C's library, as only these can be without a name.
+  using CFile = std::unique_ptr<std::FILE, CloseFile>;
+
   /// The events since the beginning, on disk, so that hours of them take no memory. Functions throw
   /// std::runtime_error if the disk is full.
   class SessionLog

@@ -2,18 +2,33 @@
 #ifndef exemplar_live_stage_h
 #define exemplar_live_stage_h
 
-#include <exemplar/live/kept_inputs.h>
 #include <exemplar/live/recording.h>
 #include <exemplar/live/session_log.h>
-#include <exemplar/live/stored_bytes.h>
 #include <exemplar/run/inputs/body_inputs.h>
 #include <exemplar/run/problem/session_player.h>
 
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace Exemplar::Live
 {
+  /// Bytes that are seldom needed again, in an unnamed file on disk, which lives as long as this.
+  class StoredBytes
+  {
+  public:
+    /// Throws std::system_error if they cannot be written.
+    explicit StoredBytes(const std::string &bytes);
+
+    /// Throws std::runtime_error if they cannot be read.
+    std::string
+    get() const;
+
+  private:
+    CFile       file;
+    std::size_t size;
+  };
+
   /// A problem with the log of all events, so that it can go back, and be played again. Files of
   /// the scene are read once, whatever becomes of them later.
   class Stage

@@ -2,13 +2,19 @@
 #ifndef exemplar_geo_text_h
 #define exemplar_geo_text_h
 
-#include <exemplar/mesh/geo_tokens.h>
+#include <exemplar/mesh/geo_script.h>
 
 #include <filesystem>
 #include <map>
+#include <string>
 
 namespace Exemplar
 {
+  /// The extension by which gmsh reads these bytes as data: .stl, .step, .iges, .brep, .msh,
+  /// .mesh, .ply, .vtk, .unv, .wrl or .pos. Empty if they are not known to be in any such format.
+  std::string
+  merged_format(const std::string &bytes);
+
   /// The input of gmsh that replaces a .geo and all files that it takes in.
   struct GeoText
   {

@@ -2,7 +2,6 @@
 #ifndef exemplar_mesh_h
 #define exemplar_mesh_h
 
-#include <exemplar/mesh/cell_order.h>
 #include <exemplar/mesh/mesh_part.h>
 
 #include <deal.II/grid/tria.h>

@@ -46,6 +46,39 @@ namespace Exemplar
     double stress_norm = 0.; ///< (sum V T^2)^(1/2)
   };
 
+  /// What the cells of each stripe sum up for each weight, lane by lane.
+  class WeightSums
+  {
+  public:
+    /// Zeros.
+    void
+    reinit(const std::size_t n_stripes, const std::size_t new_n_weights)
+    {
+      n_weights = new_n_weights;
+      lanes.resize_fast(n_stripes * n_weights * batch_size);
+      lanes.fill(0.);
+    }
+
+    double *
+    of_stripe(const std::size_t stripe)
+    {
+      return lanes.data() + stripe * n_weights * batch_size;
+    }
+
+    /// Overwrite by the sums over stripes and lanes.
+    void
+    total(std::vector<double> &sums) const
+    {
+      sums.assign(n_weights, 0.);
+      for (std::size_t i = 0; i < lanes.size(); ++i)
+        sums[i / batch_size % n_weights] += lanes[i];
+    }
+
+  private:
+    std::size_t                   n_weights = 0;
+    dealii::AlignedVector<double> lanes;
+  };
+
   /// The body of cells and their patches.
   class ElasticPotential : public ElasticBody
   {
@@ -227,6 +260,8 @@ namespace Exemplar
     /// What has an energy beside the cells' own: the patches, if there are any.
     std::vector<std::unique_ptr<PatchDilatation>> blocks;
     CellRounding                                  rounding;
+    std::vector<CellSums>                         stripe_sums; ///< memory of evaluate()
+    WeightSums                                    weight_sums; ///< memory, as before
   };
 } // namespace Exemplar
 

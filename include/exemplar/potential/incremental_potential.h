@@ -75,9 +75,10 @@ namespace Exemplar
     begin_step(const State &start, double step_size);
 
     /// An iteration begins at this state, of which the evaluation must be: terms may change, PotentialTerm::renew().
-    /// Where they do, pattern and evaluation follow. All processes must call this.
+    /// those with gaps only if the step is solved but for such changes. Where they do, pattern and evaluation follow. All
+    /// processes must call this.
     TermChange
-    renew(const State &at, Evaluation &evaluation);
+    renew(const State &at, Evaluation &evaluation, bool is_solved);
 
     /// The step that has begun is accepted, with this end, of which the rotations are. It gets what
     /// the laws remember, and what the step has dissipated.
@@ -144,6 +145,30 @@ namespace Exemplar
     double
     max_step(const Vector &positions, const Vector &displacement) const;
 
+    /// The same while obstacles go that part of the way to where they are at a time [s], PotentialTerm::max_step_to().
+    double
+    max_step_to(double time, const Vector &positions, const Vector &displacement) const;
+
+    /// What does not allow all of it, PotentialTerm::limit_to(); empty if everything does.
+    std::string
+    limit_to(double time, const Vector &positions, const Vector &displacement) const;
+
+    /// The greatest width of a gap [m]; 0 if no term has gaps.
+    double
+    gap_width() const;
+
+    /// PotentialTerm::append_gaps() of all terms, of this process.
+    std::vector<Gap>
+    gaps(const Vector &positions, double range) const;
+
+    /// Obstacles stand where they are at a time [s] within the step.
+    void
+    move_to(double time);
+
+    /// Whether obstacles stand elsewhere at these two times [s].
+    bool
+    moves_between(double time, double other_time) const;
+
     /// The name of a term that does not allow all of it; empty if all do.
     std::string
     name_of_limit(const Vector &positions, const Vector &displacement) const;
@@ -204,7 +229,7 @@ namespace Exemplar
   private:
     /// Let terms and pattern follow to where an iteration begins.
     TermChange
-    renew_terms(const State &at);
+    renew_terms(const State &at, bool with_gaps);
 
     PotentialTerms   terms;
     ElasticBody     &body;

@@ -76,6 +76,7 @@ namespace Exemplar
     std::vector<double>     mass_values;         ///< M on the pattern [kg]
     bool                    in_step        = false;
     double                  predicted_size = 0.; ///< greatest coordinate of the prediction [m]
+    Mass::Padded            difference, product; ///< memory of add(): x - x_hat, and M times it
   };
 } // namespace Exemplar
 

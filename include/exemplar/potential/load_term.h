@@ -42,8 +42,9 @@ namespace Exemplar
   private:
     const Loads   &loads;
     const FESpace &fe_space;
-    Vector         force;       ///< f of the time that is set, at the nodes of this process [N]
-    Vector         force_norms; ///< of each node [N]
+    Vector         force;        ///< f of the time that is set, at the nodes of this process [N]
+    Vector         force_norms;  ///< of each node [N]
+    Vector         displacement; ///< memory of add()
   };
 } // namespace Exemplar
 

@@ -79,9 +79,9 @@ namespace Exemplar
           sums[n * shared[i] + k] += sums[n * (n_nodes + i) + k];
     }
 
-    /// Add them to vectors by degree of freedom and by node.
+    /// Copy them to vectors by degree of freedom and by node, which get their sizes.
     void
-    add_to(Vector &forces, Vector &scales);
+    copy_to(Vector &forces, Vector &scales);
 
     /// In bytes.
     std::size_t

@@ -9,22 +9,36 @@
 #include <exemplar/potential/patch_volumes.h>
 #include <exemplar/potential/potential_term.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 namespace Exemplar
 {
-  /// Stiffness damping of the mean dilatations of patches, Eq. (22); empty without damping.
+  /// Stiffness damping of the mean dilatations of patches, Eq. (22).
   struct PatchDamping
   {
+    explicit PatchDamping(const std::size_t n_patches)
+        : past_means(n_patches, 0.), factors(n_patches, 0.)
+    {
+    }
+
+    void
+    clear()
+    {
+      std::fill(past_means.begin(), past_means.end(), 0.);
+      std::fill(factors.begin(), factors.end(), 0.);
+    }
+
     std::vector<double> past_means; ///< sum_m c_m theta_p(x_m)
     std::vector<double> factors;    ///< s, or 0 of patches that are left out
+  };
 
-    double
-    factor(const unsigned int patch) const
-    {
-      return factors.empty() ? 0. : factors[patch];
-    }
+  /// What a patch tells its points.
+  struct PressureOnPoints
+  {
+    double pressure; ///< [Pa]
+    double scale;    ///< of the summands that it is the difference of [Pa]
   };
 
   /// The volume part of Psi by patches, Eq. (25): sum lambda_p/2 V_p (theta_p - eta
@@ -63,7 +77,7 @@ namespace Exemplar
     void
     leave_step()
     {
-      damping = {};
+      damping.clear();
     }
 
     /// Find the means of the dilatations that the cells have found at these positions, CellField::get_dilatation().
@@ -153,20 +167,18 @@ namespace Exemplar
     double
     tangent_factor(unsigned int patch, Tangent kind) const;
 
-    /// eta theta_p(E(w)); 0 without examples.
-    double
-    target(unsigned int patch, const std::vector<double> &weights) const;
-
-    const Patches              &patches;
-    const ExamplePoses         &examples;
-    const FESpace              &fe_space;
-    CellField                  *cells     = nullptr; ///< since attach()
-    const FreeDofs             *free_dofs = nullptr; ///< since attach()
-    std::optional<PatchScatter> scatter;             ///< since attach()
-    PatchGuard                  guard;
-    std::optional<PatchVolumes> volumes; ///< of a law that knows J, since attach()
-    std::vector<double>         means;   ///< theta_p
-    PatchDamping                damping;
+    const Patches                &patches;
+    const ExamplePoses           &examples;
+    const FESpace                &fe_space;
+    CellField                    *cells     = nullptr; ///< since attach()
+    const FreeDofs               *free_dofs = nullptr; ///< since attach()
+    std::optional<PatchScatter>   scatter;             ///< since attach()
+    PatchGuard                    guard;
+    std::optional<PatchVolumes>   volumes;      ///< of a law that knows J, since attach()
+    std::vector<double>           means;        ///< theta_p
+    std::vector<double>           mean_squares; ///< |F|^2 of long cells, or 0
+    std::vector<PressureOnPoints> pressures;    ///< memory of write_pressures()
+    PatchDamping                  damping;
   };
 } // namespace Exemplar
 

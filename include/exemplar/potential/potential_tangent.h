@@ -15,7 +15,7 @@ namespace Exemplar
   {
   public:
     /// The tangent of a body and of terms; all must outlive it. If `in_parts`, the pattern is without the couplings of
-    /// outer products.
+    /// outer products, and stays so.
     PotentialTangent(ElasticBody          &body,
                      const FreeDofs       &free_dofs,
                      const PotentialTerms &terms,
@@ -39,6 +39,13 @@ namespace Exemplar
     void
     assemble_in_parts(bool in_parts);
 
+    /// Whether it is without them from the beginning.
+    bool
+    is_always_in_parts() const
+    {
+      return always_in_parts;
+    }
+
     /// The free degrees of freedom, or the couplings of terms, are others from now on. All processes
     /// must call this.
     void
@@ -53,6 +60,13 @@ namespace Exemplar
     void
     attach(PotentialTerm &term);
 
+    /// Which terms to take: those with gaps stay out of inverses that are kept, PotentialTerm::gap_width().
+    enum class Terms
+    {
+      all,
+      without_gaps
+    };
+
     /// A and G: exact for convexity 0, convex for 1, a mixture between. There must be `products`, which
     /// A is the sum of the values and, where the pattern is without them.
     void
@@ -61,7 +75,8 @@ namespace Exemplar
              double                     convexity,
              std::vector<double>       &matrix_values,
              std::vector<double>       &columns,
-             OuterProducts             *products = nullptr);
+             OuterProducts             *products = nullptr,
+             Terms                      which    = Terms::all);
 
   private:
     /// Make the pattern of body and terms as they are.
@@ -75,11 +90,13 @@ namespace Exemplar
                  const std::vector<double> &weights,
                  std::vector<double>       &values,
                  std::vector<double>       &columns,
-                 OuterProducts             *products);
+                 OuterProducts             *products,
+                 Terms                      which);
 
     ElasticBody          &body;
     const FreeDofs       &free_dofs;
     const PotentialTerms &terms;
+    const bool            always_in_parts;
     NodePairs             couplings; ///< of the terms
     SymmetricPattern      pattern;
     std::shared_ptr<const SymmetricPattern>

@@ -7,6 +7,7 @@
 #include <exemplar/algebra/vector.h>
 #include <exemplar/body/state.h>
 #include <exemplar/potential/elastic_body.h>
+#include <exemplar/potential/gap.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
@@ -35,11 +36,12 @@ namespace Exemplar
     couplings ///< it couples other nodes, too
   };
 
-  /// What frames show of a term: three numbers a node, by degree of freedom.
+  /// What frames show of a term: three numbers a node, by degree of freedom, or one.
   struct NodalField
   {
-    std::string name; ///< in the files
-    Vector      values;
+    std::string  name; ///< in the files
+    Vector       values;
+    unsigned int n_components = 3;
   };
 
   /// Why a term has no gradients, as in "There are no gradients {what} yet. {remedy}". Empty: it has.
@@ -95,7 +97,8 @@ namespace Exemplar
 
     /// An iteration begins here: the term may couple other nodes, as contact does, or renew what it has lagged, as
     /// friction does. Pattern and evaluation then follow before the step goes on, and no step ends with a change. It
-    /// must find the same at the same point and step, whatever was evaluated before.
+    /// must find the same at the same point and step, whatever was evaluated before. Terms with gaps are asked at the step's start and where
+    /// the solver is done with what they have lagged: forces of contact are far from the end's until then.
     virtual TermChange
     renew(const TermPoint & /*at*/)
     {
@@ -165,6 +168,49 @@ namespace Exemplar
     max_step(const Vector & /*positions*/, const Vector & /*displacement*/) const
     {
       return std::numeric_limits<double>::infinity();
+    }
+
+    /// The part of `displacement` that the body may go while obstacles go the same part of the way from where they stand
+    /// to where they are at `time` [s] within the step.
+    virtual double
+    max_step_to(double /*time*/, const Vector &positions, const Vector &displacement) const
+    {
+      return max_step(positions, displacement);
+    }
+
+    /// What of the term, in words, does not allow all of max_step_to().
+    virtual std::string
+    limit_to(double /*time*/, const Vector & /*positions*/, const Vector & /*displacement*/) const
+    {
+      return "the term '" + name() + "'";
+    }
+
+    /// The greatest width of a gap [m]; 0 for a term that has none. The tangent of a term with gaps stays out of inverses
+    /// that are kept for many steps: barriers are too far from quadratic.
+    virtual double
+    gap_width() const
+    {
+      return 0.;
+    }
+
+    /// Append all gaps of the body at these positions whose distance is below `range` times their width, in an order
+    /// that the mesh decides.
+    virtual void
+    append_gaps(const Vector & /*positions*/, double /*range*/, std::vector<Gap> & /*gaps*/) const
+    {
+    }
+
+    /// Obstacles stand from now on where they are at this time [s] within a step; set_time() moves them to its end.
+    virtual void
+    move_to(double /*time*/)
+    {
+    }
+
+    /// Whether obstacles, not loads, stand elsewhere at these two times [s].
+    virtual bool
+    moves_between(double /*time*/, double /*other_time*/) const
+    {
+      return false;
     }
 
     /// A residual force [N] that is nothing but rounding.

@@ -32,11 +32,19 @@ namespace Exemplar
     std::vector<double>
     values(const dealii::Point<3> &position, double time) const;
 
+    /// The value of the first formula there. Throws as values().
+    double
+    value(const dealii::Point<3> &position, double time) const;
+
     /// Values of three components at (x, y, z) and t [s]. Throws as values().
     dealii::Tensor<1, 3>
     vector(const dealii::Point<3> &position, double time) const;
 
   private:
+    /// The value of formula i.
+    double
+    component(unsigned int i, const dealii::Point<3> &position, double time) const;
+
     struct Parsers;
     std::unique_ptr<Parsers> parsers;
   };

@@ -2,7 +2,6 @@
 #ifndef exemplar_function_answer_h
 #define exemplar_function_answer_h
 
-#include <exemplar/python/sparse_entries.h>
 #include <exemplar/run/problem/problem.h>
 
 #include <pybind11/pybind11.h>
@@ -13,6 +12,13 @@
 
 namespace Exemplar::Python
 {
+  /// An entry of a symmetric matrix, in its lower triangle: row >= column.
+  struct MatrixEntry
+  {
+    unsigned int row, column;
+    double       value;
+  };
+
   /// The values that a term's function has returned, with the place and time that it was given.
   struct FunctionAnswer
   {

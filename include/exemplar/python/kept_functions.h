@@ -26,11 +26,26 @@ namespace Exemplar::Python
 
     /// Calls visit(function, arg) for all functions, for Python's garbage collector.
     int
-    visit(visitproc visit, void *arg) const;
+    visit(const visitproc visit, void *arg) const
+    {
+      Py_VISIT(callback.ptr());
+      for (const auto &[handle, function] : motions)
+        Py_VISIT(function.ptr());
+      for (const KeptTerm &term : terms)
+        Py_VISIT(term.function.ptr());
+      return 0;
+    }
 
     /// Drop all functions, for a problem that nobody will use any more.
     void
-    forget();
+    forget()
+    {
+      callback = pybind11::none();
+      for (auto &[handle, function] : motions)
+        function = pybind11::none();
+      for (KeptTerm &term : terms)
+        term.function = pybind11::none();
+    }
   };
 } // namespace Exemplar::Python
 

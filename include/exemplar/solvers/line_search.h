@@ -40,9 +40,20 @@ namespace Exemplar
 
   /// Draw the free degrees of freedom of `to` [m] back towards `from`, to as much of the way as
   /// IncrementalPotential::max_step() allows. Held ones stay where their handles have put them. Throws SolverFailure
-  /// where a term does not let these go there.
+  /// where a term does not let these go there. `displacement` is memory, and overwritten.
   void
-  keep_within_max_step(const IncrementalPotential &potential, const Vector &from, Vector &to);
+  keep_within_max_step(const IncrementalPotential &potential,
+                       const Vector               &from,
+                       Vector                     &to,
+                       Vector                     &displacement);
+
+  /// keep_within_max_step() with memory of its own.
+  inline void
+  keep_within_max_step(const IncrementalPotential &potential, const Vector &from, Vector &to)
+  {
+    Vector displacement;
+    keep_within_max_step(potential, from, to, displacement);
+  }
 } // namespace Exemplar
 
 #endif

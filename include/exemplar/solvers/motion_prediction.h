@@ -61,6 +61,8 @@ namespace Exemplar
     const Handles   &handles;
     unsigned int     order;
     LinearPrediction velocities; ///< of the last steps, by free degree of freedom
+
+    std::vector<double> velocity; ///< memory of predict()
   };
 } // namespace Exemplar
 

@@ -3,6 +3,7 @@
 #define exemplar_newton_h
 
 #include <exemplar/solvers/line_search.h>
+#include <exemplar/solvers/staged_motion.h>
 #include <exemplar/solvers/step_solver.h>
 
 #include <limits>
@@ -162,6 +163,7 @@ namespace Exemplar
     StepSystem            &system;
     const Handles         &handles;
     StepClock             &clock;
+    StagedMotion           motion;
     Linearization          accepted;
   };
 } // namespace Exemplar

@@ -3,9 +3,11 @@
 #define exemplar_quasi_newton_h
 
 #include <exemplar/algebra/lbfgs.h>
+#include <exemplar/solvers/contact_model.h>
 #include <exemplar/solvers/motion_prediction.h>
 #include <exemplar/solvers/newton.h>
 #include <exemplar/solvers/rotated_metric.h>
+#include <exemplar/solvers/staged_motion.h>
 
 #include <vector>
 
@@ -59,13 +61,15 @@ namespace Exemplar
       unsigned int        steps           = 0;  ///< since then
       unsigned int        iterations      = 0;  ///< in these steps
       unsigned int        last_iterations = 0;  ///< in the last of them
+      unsigned int contact_steps = 0, contact_iterations = 0; ///< of those in which gaps mattered
+      bool         last_in_contact = false;
 
       template <typename Archive>
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
         archive &positions &weights &couplings &start &step_size &mass_factor &steps &iterations
-            &last_iterations;
+            &last_iterations &contact_steps &contact_iterations &last_in_contact;
       }
     };
 
@@ -73,14 +77,30 @@ namespace Exemplar
     struct Iteration
     {
       std::vector<double> gradient; ///< by free degree of freedom, at the trial
-      std::vector<double> direct;   ///< the displacement
-      std::vector<double> rotated;  ///< the same in the frame of the metric
-      double              last_length      = 0.;
-      double              last_contraction = 0.;
+      std::vector<double>
+          contact; ///< the part of the gradient that gaps make; empty where none pushes
+      std::vector<double> direct;                         ///< the displacement
+      std::vector<double> rotated;                        ///< the same in the frame of the metric
+      std::unique_ptr<ContactModel::AlongDirection> gaps; ///< along it; null where none matters
+      double                                        last_length      = 0.;
+      double                                        last_contraction = 0.;
+    };
+
+    /// Vectors of a step, which stay from one step to the next for their memory alone.
+    struct Memory
+    {
+      State               trial;
+      Iteration           iteration;
+      std::vector<double> old_gradient, old_contact, old_weights;
+      Vector              displacement;
     };
 
     void
     predict(const State &accepted, double step_size, State &trial, Evaluation &evaluation);
+
+    /// Have a metric, with the nodes as they are where the step starts.
+    void
+    begin_with_metric(const State &start, double step_size);
 
     void
     make_metric(const Vector &positions, const std::vector<double> &weights);
@@ -110,6 +130,15 @@ namespace Exemplar
     void
     take_next_metric();
 
+    /// Whether the last step took more iterations than steps like it since the metric was made, its cost included. Contact
+    /// takes iterations that another metric would not save.
+    bool
+    is_slow() const;
+
+    /// A step has ended, or the part of one that the metric was good for.
+    void
+    count_step(const SolveReport &report);
+
     /// Have a metric for this step: the last, or a new one if that has become slow.
     void
     find_metric(const State &start, double step_size, const State &trial);
@@ -118,23 +147,29 @@ namespace Exemplar
     void
     rebuild_metrics(const State &accepted, double step_size);
 
+    /// Gather the gradient at the trial, and the part of it that gaps make.
+    void
+    measure(const State &trial, const Evaluation &evaluation, Iteration &iteration) const;
+
     /// Find the step at the trial; returns the slope along it.
     double
     find_step(const State &trial, const Evaluation &evaluation, Iteration &iteration);
 
+    /// What a part of the step along which the potential has that slope should change it by.
+    double
+    expected_change(const Iteration &iteration, double slope, double length) const;
+
     /// Go along the step; false, with the trial back at its beginning, if nothing goes downhill.
     bool
-    take_step(const Iteration &iteration,
-              double           slope,
-              State           &trial,
-              Evaluation      &evaluation,
-              SolveReport     &report);
+    take_step(double slope, State &trial, Evaluation &evaluation, SolveReport &report);
 
-    /// Keep the pair of the last step and the change of forces that it has made. `change` holds
-    /// the gradient before the step, and is overwritten.
+    /// Keep the pair of the last step and the change of forces that it has made, without those of gaps. `change` holds
+    /// the gradient before the step; it, `old_weights` and the rotated step are overwritten. `old_contact` is what gaps
+    /// made of that gradient.
     void
     learn(const State               &trial,
-          const std::vector<double> &old_weights,
+          const std::vector<double> &old_contact,
+          std::vector<double>       &old_weights,
           std::vector<double>       &change,
           double                     step_length,
           Iteration                 &iteration);
@@ -160,10 +195,14 @@ namespace Exemplar
     StepClock             &clock;
     Newton                 newton; ///< where this method does not converge
     MotionPrediction       prediction;
+    StagedMotion           motion;
+    Memory                 memory;
     RotatedMetric          metric;
     std::vector<float>     node_rotations;
     Lbfgs                  lbfgs; ///< in the frame of the metric
+    ContactModel           contact;
     MetricHistory          history;
+    bool                   in_contact = false; ///< whether gaps have mattered in this step
     MetricHistory          next; ///< of the metric that a thread makes; without positions: none
     std::vector<float>     next_rotations; ///< of the nodes where it was assembled
   };

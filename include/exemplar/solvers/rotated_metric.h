@@ -52,6 +52,10 @@ namespace Exemplar
       multiply_by_rotations(vector, 3, 1);
     }
 
+    /// A vector at one node into the frame of the kept inverse.
+    dealii::Tensor<1, 3>
+    rotate_back(unsigned int node, const dealii::Tensor<1, 3> &vector) const;
+
     /// What the weights will do if these forces, in the frame of the kept inverse, act on the body:
     /// from where the energy has `weight_gradient`, with changes as these limits leave them.
     std::vector<double>
@@ -63,12 +67,30 @@ namespace Exemplar
     void
     add_example_forces(const std::vector<double> &weights, std::vector<double> &forces) const;
 
+    /// Add the displacements Z w that these forces cause.
+    void
+    add_example_responses(const std::vector<double> &weights, std::vector<double> &step) const;
+
     /// Overwrite forces by the displacement that they cause at fixed weights, both in the
     /// frame of the kept inverse.
     void
     apply(std::vector<double> &vector)
     {
       inverse->apply(vector);
+    }
+
+    /// As KeptInverse::entries().
+    std::unique_ptr<InverseEntries>
+    entries() const
+    {
+      return inverse->entries();
+    }
+
+    /// Number of calls of reinit(), by which who has entries() notices that there are others.
+    unsigned int
+    version() const
+    {
+      return n_reinits;
     }
 
     /// As KeptInverse::cost_in_iterations().
@@ -107,9 +129,10 @@ namespace Exemplar
     std::unique_ptr<KeptInverse> inverse;
     std::vector<float>           rotations_then;
     std::vector<float>           rotations_since; ///< Q, nine numbers a rotated node
-    const WeightForm            *form = nullptr;  ///< of the system that the inverse is of
-    std::vector<float>           G, Z;            ///< columns of the coupled weights; Z = A^-1 G
-    dealii::FullMatrix<double>   schur;           ///< H - G^T Z
+    unsigned int                 n_reinits = 0;
+    const WeightForm            *form      = nullptr; ///< of the system that the inverse is of
+    std::vector<float>           G, Z;  ///< columns of the coupled weights; Z = A^-1 G
+    dealii::FullMatrix<double>   schur; ///< H - G^T Z
   };
 } // namespace Exemplar
 

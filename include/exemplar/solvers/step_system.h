@@ -41,12 +41,16 @@ namespace Exemplar
                       const std::vector<double> &weights,
                       double                     convexity);
 
-    /// Assemble as factorize() does, and let a thread factorise roughly while the last factor is in use. False, with
+    /// Assemble the convex tangent without the terms that have gaps, and factorise roughly: for an inverse that is kept.
+    void
+    factorize_metric(const Vector &positions, const std::vector<double> &weights);
+
+    /// Assemble as factorize_metric() does, and let a thread factorise roughly while the last factor is in use. False, with
     /// nothing done, for a system that cannot.
     bool
-    begin_factor(const Vector &positions, const std::vector<double> &weights, double convexity);
+    begin_metric(const Vector &positions, const std::vector<double> &weights);
 
-    /// From now on the factor of the last begin_factor() is in use, for which this waits. Returns its
+    /// From now on the factor of the last begin_metric() is in use, for which this waits. Returns its
     /// inverse_columns(). Throws SolverFailure if there is none.
     std::vector<double>
     take_factor();
@@ -130,13 +134,17 @@ namespace Exemplar
 
     /// Assemble in the system whose factor comes next.
     void
-    assemble(const Vector &positions, const std::vector<double> &weights, double convexity);
+    assemble(const Vector              &positions,
+             const std::vector<double> &weights,
+             double                     convexity,
+             PotentialTangent::Terms    terms);
 
     /// Assemble in `assembled`, a system of the present pattern.
     void
     assemble(const Vector              &positions,
              const std::vector<double> &weights,
              double                     convexity,
+             PotentialTangent::Terms    terms,
              BorderedSystem            &assembled);
 
     void

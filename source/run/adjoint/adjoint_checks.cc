@@ -10,15 +10,6 @@
 
 namespace Exemplar
 {
-  bool
-  has_orthotropic_cells(const Problem &problem)
-  {
-    for (unsigned int cell = 0; cell < problem.body.mesh.n_cells(); ++cell)
-      if (problem.body.material.of_body_alone(cell).whole.orthotropic)
-        return true;
-    return false;
-  }
-
   namespace
   {
     void
@@ -61,18 +52,45 @@ namespace Exemplar
                "equilibrium",
                "Take one increment, or set Examples/Yield to 0.");
     }
+
+    void
+    refuse_steps(const std::string &what, const std::string &remedy)
+    {
+      throw UserError(
+          fmt::format("vjp: there are no gradients through steps {} yet. {}", what, remedy));
+    }
+
+    /// The residual tolerance of the steps.
+    double
+    required_residual(const SolverParameters &solver)
+    {
+      return solver.method == Method::quasi_newton
+                 ? std::max(solver.tolerance, solver.step_tolerance)
+                 : solver.tolerance;
+    }
+
+    /// Throws UserError, by name, for terms of the potential that derivatives_of_slope() does not
+    /// know.
+    void
+    require_known_potential(const Problem &problem)
+    {
+      if (problem.body.exchange().n_processes() > 1)
+        refuse("for several processes", "Use one.");
+      for (const auto &term : problem.potential.get_terms())
+        if (const NoGradients none = term->no_gradients(); !none.what.empty())
+          refuse(none.what, none.remedy);
+      require_known_model(problem);
+      require_known_examples(problem);
+    }
   } // namespace
 
-  void
-  require_known_potential(const Problem &problem)
+  bool
+  has_orthotropic_cells(const Problem &problem)
   {
-    if (problem.body.exchange().n_processes() > 1)
-      refuse("for several processes", "Use one.");
-    for (const auto &term : problem.potential.get_terms())
-      if (const NoGradients none = term->no_gradients(); !none.what.empty())
-        refuse(none.what, none.remedy);
-    require_known_model(problem);
-    require_known_examples(problem);
+    for (unsigned int cell = 0; cell < problem.body.mesh.n_cells(); ++cell)
+      if (problem.body.material.of_body_alone(cell).whole.orthotropic)
+        return true;
+    return false;
   }
 
   void
@@ -119,5 +137,32 @@ namespace Exemplar
           "allowed {:.2g}). Call step() first, after each change of the problem; run() makes no "
           "step at the scene's end.",
           value, bound));
+  }
+
+  void
+  require_known_steps(const Problem &problem)
+  {
+    if (problem.parameters.scene == SceneKind::interpolation)
+      refuse_steps("of interpolations", "Set Scene = static or dynamic.");
+    if (problem.parameters.solver.method == Method::one_pass)
+      refuse_steps("of one pass", "Set Solver/Method = auto.");
+    if (problem.examples.weights.get_memory().in_use())
+      refuse_steps("of weights that remember", "Set Examples/Yield and Creep viscosity to 0.");
+    if (problem.constraints.handles.have_times())
+      refuse_steps("with handles that let go or catch", "Leave out From and Until of Handles.");
+    require_known_potential(problem);
+  }
+
+  void
+  require_solved_step(const Problem &problem, const Evaluation &evaluation, const unsigned int step)
+  {
+    const double   bound    = std::max(1e-6, 10. * required_residual(problem.parameters.solver));
+    const Residual residual = problem.potential.residual(problem.state, evaluation);
+    const double   value    = std::max(residual.positions, residual.weights);
+    if (!(value <= bound))
+      throw UserError(fmt::format("vjp: step {}, counted from 0, ends in no equilibrium of its "
+                                  "forces (residual {:.2g}, allowed {:.2g}). Lower "
+                                  "Solver/Step tolerance, or Tolerance.",
+                                  step, value, bound));
   }
 } // namespace Exemplar

@@ -2,18 +2,87 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/run/adjoint/adjoint_solve.h>
 #include <exemplar/run/adjoint/adjoint_system.h>
-#include <exemplar/run/adjoint/conjugate_residuals.h>
 #include <exemplar/run/adjoint/example_strains.h>
+#include <exemplar/run/adjoint/slope_derivatives.h>
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace Exemplar
 {
   namespace
   {
+    /// Generalised conjugate residuals (Eisenstat, Elman and Schultz 1983): minimises the residual
+    /// over the preconditioned steps; one step if the preconditioner is the exact inverse.
+    class ConjugateResiduals
+    {
+    public:
+      /// `of_weights`: factor of a weight's entry relative to a degree of freedom's in the inner
+      /// product.
+      explicit ConjugateResiduals(double of_weights) : of_weights(of_weights) {}
+
+      /// Orthonormalise `image`, the image of `step`, against the earlier ones, and subtract from
+      /// `rest` its projection on it; add the same multiple of the step to `solution`.
+      void
+      add(Direction step, Direction image, Direction &solution, Direction &rest);
+
+    private:
+      double
+      product(const Direction &a, const Direction &b) const;
+
+      const double           of_weights;
+      std::vector<Direction> steps, images; ///< images are orthonormal
+    };
+
+    void
+    add_to(Direction &sum, const double factor, const Direction &direction)
+    {
+      sum.positions.add(factor, direction.positions);
+      for (std::size_t i = 0; i < sum.weights.size(); ++i)
+        sum.weights[i] += factor * direction.weights[i];
+    }
+
+    void
+    scale(Direction &direction, const double factor)
+    {
+      direction.positions *= factor;
+      for (double &weight : direction.weights)
+        weight *= factor;
+    }
+
+    double
+    ConjugateResiduals::product(const Direction &a, const Direction &b) const
+    {
+      double sum = a.positions * b.positions;
+      for (std::size_t i = 0; i < a.weights.size(); ++i)
+        sum += of_weights * of_weights * a.weights[i] * b.weights[i];
+      return sum;
+    }
+
+    void
+    ConjugateResiduals::add(Direction step, Direction image, Direction &solution, Direction &rest)
+    {
+      for (std::size_t k = 0; k < images.size(); ++k)
+      {
+        const double part = product(image, images[k]);
+        add_to(image, -part, images[k]);
+        add_to(step, -part, steps[k]);
+      }
+      const double norm = std::sqrt(product(image, image));
+      if (!(norm > 0.))
+        return;
+      scale(image, 1. / norm);
+      scale(step, 1. / norm);
+      const double part = product(rest, image);
+      add_to(solution, part, step);
+      add_to(rest, -part, image);
+      steps.push_back(std::move(step));
+      images.push_back(std::move(image));
+    }
+
     /// Relative residuals of the adjoint equations: accepted at once, and too large after all
     /// corrections.
     constexpr double solved = 1e-9, unsolved = 1e-7;

@@ -59,9 +59,9 @@ namespace Exemplar
   ExampleStrains::wish(const unsigned int point, const std::vector<double> &weights) const
   {
     Matrix3<double> sum{};
-    poses.for_each_weight(point,
-                          [&](const unsigned int weight, const unsigned int i, const double share)
-                          { sum = combine(1., sum, share * weights[weight], strain(point, i)); });
+    poses.get_strains().for_each_weight(
+        point, [&](const unsigned int weight, const unsigned int i, const double share)
+        { sum = combine(1., sum, share * weights[weight], strain(point, i)); });
     return sum;
   }
 

@@ -50,10 +50,10 @@ namespace Exemplar
     const ExampleWeights      &rule   = problem.examples.weights;
     const std::vector<double> &w      = problem.state.weights,
                               &slopes = evaluation.elastic.weight_gradient;
-    const bool is_bounded = rule.n_unknown() > 0 && !rule.limits_of_changes(w).lower.empty();
     std::vector<unsigned int> found;
     if (rule.n_unknown() == 0)
       return found;
+    const bool                is_bounded  = !rule.limits_of_changes(w).lower.empty();
     const std::vector<double> multipliers = rule.residual(w, slopes).multipliers;
     for (unsigned int weight = 0; weight < w.size(); ++weight)
       if (is_weak(rule.get_memory(), is_bounded, weight, w[weight],

@@ -74,7 +74,7 @@ namespace Exemplar
                Matrix3<double>    &by_gradients) const
       {
         const std::vector<double> &w = problem.state.weights;
-        poses.for_each_weight(
+        poses.get_strains().for_each_weight(
             point,
             [&](const unsigned int weight, const unsigned int i, const double share)
             {

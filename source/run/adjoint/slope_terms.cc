@@ -54,14 +54,14 @@ namespace Exemplar
   {
     if (problem.examples.weights.n_unknown() == 0)
       return;
-    const FESpace            &fe_space   = problem.body.fe_space;
-    const Material           &material   = problem.body.material;
-    const ExamplePoses       &poses      = problem.examples.poses;
-    const ExampleParameters  &parameters = problem.parameters.examples;
-    const double              total      = fe_space.total_volume();
-    const double              sigma = parameters.ridge(unit_energy_of_examples(fe_space, material));
-    const double              by_unit   = parameters.ridge(1.) - parameters.ridge(0.);
-    const std::vector<double> fractions = poses.volume_fractions();
+    const FESpace           &fe_space   = problem.body.fe_space;
+    const Material          &material   = problem.body.material;
+    const ExamplePoses      &poses      = problem.examples.poses;
+    const ExampleParameters &parameters = problem.parameters.examples;
+    const double             total      = fe_space.total_volume();
+    const double             sigma = parameters.ridge(unit_energy_of_examples(fe_space, material));
+    const double             by_unit     = parameters.ridge(1.) - parameters.ridge(0.);
+    const std::vector<double> &fractions = poses.fractions();
     const std::vector<double> &w = problem.state.weights, &b = direction.weights;
     const WeightMemory        &memory = problem.examples.weights.get_memory();
     std::vector<double>        products(fractions.size(), 0.); // w.b of each region
@@ -82,12 +82,12 @@ namespace Exemplar
       const unsigned int cell   = fe_space.cell_of(point);
       const double       volume = fe_space.volume(point);
       double             here = 0., price = 0.;
-      poses.get_regions().for_each(point,
-                                   [&](const unsigned int region, const double share)
-                                   {
-                                     here += share * products[region];
-                                     price += share * prices[region];
-                                   });
+      poses.get_strains().get_shares().for_each(point,
+                                                [&](const unsigned int region, const double share)
+                                                {
+                                                  here += share * products[region];
+                                                  price += share * prices[region];
+                                                });
       if (!material.elasticity_of_examples().youngs_modulus)
         sums.by_young[cell] += by_unit * volume * mean;
       add_volume(fe_space, cell,

@@ -96,7 +96,10 @@ namespace Exemplar
         if (frame.velocities.size() > 0)
           write_vector(out, "velocity", frame.velocities);
         for (const NodalField &field : frame.fields)
-          write_vector(out, field.name, field.values);
+          if (field.n_components == 1)
+            write_scalars(out, field.name, { field.values.begin(), field.values.end() });
+          else
+            write_vector(out, field.name, field.values);
         out << "</PointData>\n<CellData>\n";
         write_scalars(out, "strain_energy_density", frame.cells.strain_energy_density);
         write_scalars(out, "det_F", frame.cells.det_F);
@@ -143,7 +146,7 @@ namespace Exemplar
     if (frame.velocities.size() > 0)
       declare("Float64", "velocity", 3);
     for (const NodalField &field : frame.fields)
-      declare("Float64", field.name, 3);
+      declare("Float64", field.name, static_cast<int>(field.n_components));
     out << "</PPointData>\n<PCellData>\n";
     for (const std::string name : { "strain_energy_density", "det_F", "von_mises_stress" })
       declare("Float64", name, 1);

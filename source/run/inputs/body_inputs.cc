@@ -22,6 +22,21 @@ namespace Exemplar
       return nodes;
     }
 
+    /// From the unit of the mesh file to metres.
+    void
+    scale(ObstacleSurface &surface, const double factor)
+    {
+      const auto multiply = [factor](std::vector<std::array<double, 3>> &places)
+      {
+        for (auto &place : places)
+          for (double &x : place)
+            x *= factor;
+      };
+      multiply(surface.vertices);
+      for (auto &sample : surface.samples)
+        multiply(sample);
+    }
+
     /// Fields of the whole body, with the readings off the surface, to whose warnings more are added. Moves the poses out
     /// of the inputs.
     BodyFields
@@ -39,9 +54,12 @@ namespace Exemplar
                           readings.warnings));
       if (scene.model.has_patches())
         fields.patches = Patches::choose(mesh, fields.material, scene.model.element);
-      fields.shares = readings.shares;
-      fields.poses  = std::move(inputs.poses);
-      fields.nodes  = choose_nodes(scene, mesh, named);
+      fields.shares    = readings.shares;
+      fields.poses     = std::move(inputs.poses);
+      fields.nodes     = choose_nodes(scene, mesh, named);
+      fields.obstacles = std::move(inputs.obstacles);
+      for (auto &[name, surface] : fields.obstacles)
+        scale(surface, scene.mesh.scale);
       if (scene.scene == SceneKind::interpolation)
         fields.support = support_near_centroid(mesh.get_nodes(), mesh.get_cells());
       return fields;

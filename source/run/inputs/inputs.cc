@@ -6,6 +6,7 @@
 #include <exemplar/mesh/mesh_arrays.h>
 #include <exemplar/run/inputs/inputs.h>
 #include <exemplar/run/scene/scene_parameters.h>
+#include <exemplar/surface/shape/triangle_surface.h>
 
 namespace Exemplar
 {
@@ -56,6 +57,9 @@ namespace Exemplar
           add_surface();
         if (inputs.carried.empty())
           add_carried();
+        for (const ObstacleParameters &obstacle : scene.obstacles.named)
+          if (!obstacle.surface_file().empty() && inputs.obstacles.count(obstacle.name) == 0)
+            inputs.obstacles[obstacle.name] = read_obstacle(obstacle);
         if (inputs.mesh.nodes.empty())
           inputs.mesh = is_to_be_filled(scene.mesh) ? surfaces.make_mesh() : load_mesh(scene.mesh);
         for (const auto &[selection, key] : scene.selections())
@@ -163,6 +167,30 @@ namespace Exemplar
                       require_file(file, "a surface: an .obj, .ply or .stl file");
                       inputs.carried.push_back({ name_of_carried(file), read_surface(file) });
                     });
+      }
+
+      /// The surface of an obstacle, with the samples of its cache.
+      static ObstacleSurface
+      read_obstacle(const ObstacleParameters &obstacle)
+      {
+        const std::string key  = "Obstacles/" + obstacle.name;
+        const std::string file = obstacle.surface_file();
+        return under_key(key + "/Shape",
+                         [&]
+                         {
+                           require_file(file, "a surface: an .obj, .ply or .stl file");
+                           const SurfaceMesh     mesh    = read_surface(file);
+                           const TriangleSurface surface = triangulate(mesh);
+                           ObstacleSurface result{ surface.vertices, surface.triangles, {}, {} };
+                           if (obstacle.follow_cache.empty())
+                             return result;
+                           const auto cache = open_point_cache(
+                               obstacle.follow_cache, obstacle.frames_per_second, mesh, file);
+                           result.times = cache->get_times();
+                           for (std::size_t k = 0; k < result.times.size(); ++k)
+                             result.samples.push_back(cache->sample(k));
+                           return result;
+                         });
       }
 
       void

@@ -65,7 +65,8 @@ namespace Exemplar
             = chosen(places, places.size() > n_vertices_of_whole ? part.nodes.in_files : vertices);
       for (const auto &[text, nodes] : whole.nodes)
         own.nodes[text] = places_among(vertices, nodes);
-      own.support = whole.support;
+      own.obstacles = whole.obstacles;
+      own.support   = whole.support;
       return own;
     }
   } // namespace

@@ -10,7 +10,7 @@
 #include <exemplar/run/scene/scene_parameters.h>
 #include <exemplar/surface/files/surface_scanner.h>
 #include <exemplar/surface/making/mesh_making.h>
-#include <exemplar/surface/making/sheet_crossings.h>
+#include <exemplar/surface/making/parted_sheets.h>
 #include <exemplar/surface/posing/pose_carrying.h>
 
 #include <fmt/core.h>

@@ -73,17 +73,23 @@ namespace Exemplar
   void
   Diagnostics::add_step()
   {
-    const State   &state        = problem.state;
-    const Handles &handles      = problem.constraints.handles;
-    const Loads   *loads        = problem.actions.loads.get();
-    Vector         displacement = state.positions;
+    const State   &state   = problem.state;
+    const Handles &handles = problem.constraints.handles;
+    const Loads   *loads   = problem.actions.loads.get();
+    displacement           = state.positions;
     displacement -= last_positions;
     const Exchange &exchange = problem.body.exchange();
     if (handles.size() > 0)
     {
+      if (const unsigned int version = problem.constraints.free_dofs.version();
+          version != held_version)
+      {
+        held         = handles.held_dofs();
+        held_version = version;
+      }
       double own = 0.;
       at_root(exchange, [&] { own = work.handles; });
-      for (const unsigned int dof : handles.held_dofs())
+      for (const unsigned int dof : held)
         if (exchange.owns(dof / 3))
           own += problem.evaluation.gradient[dof] * displacement[dof];
       work.handles = exchange.sum(own);

@@ -58,7 +58,7 @@ namespace Exemplar
     for (const auto &term : problem.potential.get_terms())
       term->append_fields(state.positions, frame.fields);
     for (NodalField &field : frame.fields)
-      problem.body.exchange().assemble(field.values.begin(), 3);
+      problem.body.exchange().assemble(field.values.begin(), field.n_components);
     return frame;
   }
 
@@ -136,7 +136,7 @@ namespace Exemplar
     const unsigned int  region   = i / poses.size();
     Vector              u        = poses.pose(i % poses.size());
     u -= fe_space.rest_positions();
-    if (poses.get_regions().n_regions() == 1)
+    if (poses.n_regions() == 1)
       return u;
     // at nodes, the mean of the shares in their cells
     std::vector<double> share(fe_space.n_nodes(), 0.), n_cells(fe_space.n_nodes(), 0.);
@@ -145,7 +145,7 @@ namespace Exemplar
       for (const unsigned int node : fe_space.nodes(cell))
       {
         n_cells[node] += 1.;
-        share[node] += poses.get_regions().share(cell * n_points, region);
+        share[node] += poses.get_strains().get_shares().share(cell * n_points, region);
       }
     for (unsigned int dof = 0; dof < u.size(); ++dof)
       u[dof] *= n_cells[dof / 3] > 0. ? share[dof / 3] / n_cells[dof / 3] : 0.;

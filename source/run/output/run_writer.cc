@@ -155,17 +155,20 @@ namespace Exemplar
     space_error.forget();
     if (accepted)
       diagnostics.add_step();
-    State shown = problem.state;
-    if (!accepted) // the problem stands before the step that failed
+    StatisticsRow row;
+    if (accepted)
     {
+      row = diagnostics.row(problem.state, report);
+      require_numbers(row);
+    }
+    else // the problem stands before the step that failed
+    {
+      State shown = problem.state;
       ++shown.step;
       shown.time = problem.time_axis.time(shown.step);
-    }
-    StatisticsRow row = diagnostics.row(shown, report);
-    if (!accepted)
+      row        = diagnostics.row(shown, report);
       keep_only_report(row);
-    else
-      require_numbers(row);
+    }
     if (accepted && frames.is_due(problem.state.step))
       write_frame();
     write_row(std::move(row), account.lap(), accepted);

@@ -73,12 +73,13 @@ namespace Exemplar
           : body(body), exchange(body.exchange()), free_dofs(free_dofs),
             weights(examples.weights.size(), 0.),
             cells(elastic_parts(parameters, body, examples.poses, examples.weights, free_dofs)),
-            potential(cells,
-                      examples.weights,
-                      free_dofs,
-                      {},
-                      nullptr,
-                      is_assembled_in_parts(parameters.solver, exchange)),
+            potential(
+                cells,
+                examples.weights,
+                free_dofs,
+                {},
+                nullptr,
+                is_assembled_in_parts(parameters.solver, body.fe_space, examples.weights.size())),
             system(make_bordered_system(parameters.solver, potential))
       {
         ElasticEvaluation evaluation; // finds the rotations
@@ -177,21 +178,24 @@ namespace Exemplar
       void
       add_stresses(const Vector &displacement, PointStresses &stresses)
       {
-        const FESpace      &fe_space = body.fe_space;
-        const Patches      &patches  = body.patches;
-        std::vector<double> means(patches.size(), 0.);
+        const FESpace &fe_space = body.fe_space;
+        const Patches &patches  = body.patches;
         for (unsigned int point = 0; point < stresses.size(); ++point)
         {
           const Matrix3<double> M = fe_space.deformation_gradient(point, displacement);
           stresses[point]         = combine(1., stresses[point], 1.,
                                             stress_at_rest(cells.get_field().get_batches(), point, M));
-          if (patches.size() > 0)
-            means[patches.of_point(point)] += fe_space.volume(point) * trace(M);
         }
         for (unsigned int patch = 0; patch < patches.size(); ++patch)
+        {
+          double sum = 0.;
+          for (const unsigned int point : patches.points(patch))
+            sum += fe_space.volume(point)
+                   * trace(fe_space.deformation_gradient(point, displacement));
           for (const unsigned int point : patches.points(patch))
             for (int i = 0; i < 3; ++i)
-              stresses[point][i][i] += patches.lambda(patch) * means[patch] / patches.volume(patch);
+              stresses[point][i][i] += patches.lambda(patch) * sum / patches.volume(patch);
+        }
       }
 
       Vector

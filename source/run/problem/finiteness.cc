@@ -61,9 +61,9 @@ namespace Exemplar
       return "positions";
     if (!are_finite_values(frame.velocities))
       return "velocities";
-    for (const auto &[name, values] : frame.fields)
-      if (!are_finite_values(values))
-        return "values of " + name;
+    for (const NodalField &field : frame.fields)
+      if (!are_finite_values(field.values))
+        return "values of " + field.name;
     return what_is_not_finite(frame.cells);
   }
 

@@ -83,7 +83,7 @@ namespace Exemplar
   std::vector<std::string>
   idle_notes(const Problem &problem)
   {
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = problem.actions.notes;
     if (problem.parameters.scene != SceneKind::interpolation && problem.actions.loads == nullptr
         && problem.parameters.session.empty() && may_rest(problem.examples)
         && !problem.body.exchange().any(!is_at_rest(problem)) && !is_any_handle_moved(problem))

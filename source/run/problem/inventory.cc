@@ -62,6 +62,7 @@ namespace Exemplar
       { "gravity", has_gravity, has_gravity ? loads : 0 }, // one vector for gravity and loads
       { "loads", actions.loads != nullptr && actions.loads->has_named_loads(),
         has_gravity ? 0 : loads },
+      { "obstacles", actions.obstacles != nullptr, memory_of_term(problem, "obstacles") },
       { "initial stresses", !actions.initial_stresses.empty(),
         memory_of_term(problem, "initial stress") },
       { "plastic cells",

@@ -157,7 +157,7 @@ namespace Exemplar
     state.positions = at.positions;
     state.weights   = at.weights;
     potential.evaluate(state, RotationUse::update, evaluation);
-    potential.renew(state, evaluation);
+    potential.renew(state, evaluation, true);
     return evaluation;
   }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/minimum_degree.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/run/problem/problem_parts.h>
 
@@ -31,6 +32,53 @@ namespace Exemplar
                                                         : static_cast<double>(pattern.n_values());
     }
 
+    /// The nodes that share cells.
+    SymmetricPattern
+    pattern_of_nodes(const FESpace &fe_space)
+    {
+      const dealii::SparsityPattern nodal = fe_space.nodal_pattern();
+      SymmetricPattern              pattern;
+      pattern.column_start.push_back(0);
+      for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
+      {
+        for (auto entry = nodal.begin(node); entry != nodal.end(node); ++entry)
+          if (entry->column() >= node)
+            pattern.row.push_back(static_cast<int>(entry->column()));
+        std::sort(pattern.row.begin() + pattern.column_start.back(), pattern.row.end());
+        pattern.column_start.push_back(static_cast<int>(pattern.row.size()));
+      }
+      return pattern;
+    }
+
+    /// Number of nodes from which on the best order of elimination, which METIS finds, takes seconds.
+    constexpr unsigned int n_nodes_of_large_body = 60000;
+
+    /// By how much that order may be better than one by minimum degree, and more.
+    constexpr double max_gain_of_order = 40.;
+
+    /// Whether so large a body has so many operations that multigrid is faster whatever their order. Patches couple more
+    /// nodes than are looked at.
+    bool
+    is_beyond_factorizing(const SolverParameters &solver,
+                          const FESpace          &fe_space,
+                          const unsigned int      n_weights)
+    {
+      if (solver.linear_solver != LinearSolver::automatic || !has_iterative_operator()
+          || fe_space.n_nodes() < n_nodes_of_large_body)
+        return false;
+      try
+      {
+        const SymmetricPattern pattern      = pattern_of_nodes(fe_space);
+        const double           n_operations = 27. * operations_by_minimum_degree(pattern);
+        return n_operations > max_gain_of_order * operations_at_crossover(solver.method, n_weights)
+                                  * 9. * pattern.n_values();
+      }
+      catch (const SolverFailure &)
+      {
+        return true; // too large for its library
+      }
+    }
+
     /// Relative residuals of linear solves. Newton's method and the fixed point correct errors in
     /// their next iteration; one pass does not, and Schur complements are small differences of
     /// solutions.
@@ -47,11 +95,10 @@ namespace Exemplar
     /// A Cholesky factorisation for a pattern; null if the choice is automatic and it does not pay.
     std::unique_ptr<SpdOperator>
     find_cholesky_operator(const SolverParameters     &solver,
-                           const unsigned int          n_processes,
                            const unsigned int          n_examples,
                            const IncrementalPotential &potential)
     {
-      if (solver.linear_solver == LinearSolver::iterative || n_processes > 1)
+      if (potential.get_tangent().is_always_in_parts())
         return nullptr;
       const bool may_choose
           = solver.linear_solver == LinearSolver::automatic && has_iterative_operator();
@@ -82,22 +129,25 @@ namespace Exemplar
   } // namespace
 
   bool
-  is_assembled_in_parts(const SolverParameters &solver, const Exchange &exchange)
+  is_assembled_in_parts(const SolverParameters &solver,
+                        const FESpace          &fe_space,
+                        const unsigned int      n_weights)
   {
-    return solver.linear_solver == LinearSolver::iterative || exchange.n_processes() > 1;
+    return solver.linear_solver == LinearSolver::iterative || fe_space.exchange().n_processes() > 1
+           || is_beyond_factorizing(solver, fe_space, n_weights);
   }
 
   std::unique_ptr<BorderedSystem>
   make_bordered_system(const SolverParameters &solver, IncrementalPotential &potential)
   {
     const Exchange &exchange = potential.get_free_dofs().exchange();
-    potential.get_tangent().assemble_in_parts(is_assembled_in_parts(solver, exchange));
+    potential.get_tangent().assemble_in_parts(false); // unless it always is
     const SymmetricPattern &pattern = potential.get_tangent().get_pattern();
     const WeightForm       &form    = potential.get_weights().weight_form();
     if (solver.linear_solver == LinearSolver::umfpack)
       return make_umfpack_system(pattern, form);
     const unsigned int n_examples = form.coupled.size();
-    auto matrix = find_cholesky_operator(solver, exchange.n_processes(), n_examples, potential);
+    auto               matrix     = find_cholesky_operator(solver, n_examples, potential);
     if (matrix == nullptr)
     {
       potential.get_tangent().assemble_in_parts(true);

@@ -5,6 +5,7 @@
 #include <exemplar/run/problem/example_starts.h>
 #include <exemplar/run/problem/finiteness.h>
 #include <exemplar/run/problem/initial_state.h>
+#include <exemplar/run/problem/obstacle_start.h>
 #include <exemplar/run/problem/problem.h>
 
 #include <fmt/core.h>
@@ -56,7 +57,7 @@ namespace Exemplar
                   constraints.free_dofs,
                   actions.make_terms(body, cells.get_field(), actions.integrator.get()),
                   actions.integrator.get(),
-                  is_assembled_in_parts(parameters.solver, body.exchange())),
+                  is_assembled_in_parts(parameters.solver, body.fe_space, examples.weights.size())),
         system(
             potential,
             [this] { return make_bordered_system(parameters.solver, potential); },
@@ -80,6 +81,12 @@ namespace Exemplar
     }
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation(parameters.initial, examples.poses, state);
+    if (actions.obstacles != nullptr)
+    {
+      check_obstacle_motions(*actions.obstacles, body, time_axis);
+      suit_obstacles(*actions.obstacles, *actions.contact_surface, body, state.positions,
+                     actions.notes);
+    }
     state.history = cells.get_field().get_batches().history();
     start(state);
     check_start(*this);
@@ -122,8 +129,9 @@ namespace Exemplar
     check_weights(*this, interval);
     follow_time(state.time);
     constraints.handles.begin_step(state.time, state.positions);
-    State next = state;
-    next.step  = state.step + 1;
+    State &next = spare;
+    next        = state;
+    next.step   = state.step + 1;
     if (turns_freely(*this)
         && turn_to_support(*constraints.support, parameters.model.is_frozen() ? 0. : max_turn,
                            next.positions, body.exchange()))

@@ -17,6 +17,7 @@ namespace Exemplar
     /// What has changed, and parts of a problem follow.
     enum Change : unsigned int
     {
+      nothing        = 0,
       new_density    = 1,
       new_elasticity = 2,
       new_examples   = 4, ///< poses or importance
@@ -90,8 +91,8 @@ namespace Exemplar
     changes.count("set_material()");
     const bool has_same_elasticity
         = changed.youngs_modulus.empty() && changed.poissons_ratio.empty();
-    refresh((changed.density.empty() ? 0 : new_density)
-            | (has_same_elasticity ? 0 : new_elasticity));
+    refresh((changed.density.empty() ? nothing : new_density)
+            | (has_same_elasticity ? nothing : new_elasticity));
   }
 
   void

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/potential/inertia_term.h>
 #include <exemplar/potential/load_term.h>
+#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/run/problem/problem_parts.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ namespace Exemplar
       ExampleParameters     examples = parameters.examples;
       examples.in_single_precision   = parameters.solver.method == Method::quasi_newton
                                      && parameters.solver.step_tolerance >= rounding
-                                     && examples.in_use() && examples.n_examples() >= many;
+                                     && examples.n_examples() >= many;
       return examples;
     }
 
@@ -60,7 +61,7 @@ namespace Exemplar
     Material
     make_material(const ExampleParameters &examples, Material of_body)
     {
-      if (!examples.in_use() || !examples.elasticity().is_own())
+      if (!examples.elasticity().is_own())
         return of_body;
       return of_body.with_examples(examples.elasticity(), examples.importance);
     }
@@ -109,6 +110,13 @@ namespace Exemplar
                                     : nullptr),
         integrator(is_dynamic(parameters) ? std::make_unique<TimeIntegrator>(parameters.time)
                                           : nullptr),
+        obstacles(parameters.obstacles.empty()
+                      ? nullptr
+                      : std::make_unique<Obstacles>(
+                          parameters.obstacles, body.mesh.diameter(), inputs.fields.obstacles)),
+        contact_surface(obstacles == nullptr
+                            ? nullptr
+                            : std::make_unique<ContactSurface>(body.mesh, body.fe_space)),
         energy_is_bounded(integrator != nullptr && integrator->is_undamped_implicit_euler()
                           && has_one_energy(parameters))
   {
@@ -181,6 +189,8 @@ namespace Exemplar
           std::make_unique<InertiaTerm>(*mass, *integrator_of_terms, energy_is_bounded));
     if (loads != nullptr)
       terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space));
+    if (obstacles != nullptr)
+      terms.push_back(std::make_unique<ObstacleTerm>(*obstacles, *contact_surface, body.material));
     if (!initial_stresses.empty())
       terms.push_back(std::make_unique<InitialStressTerm>(cells, body.fe_space, initial_stresses));
     return terms;

@@ -3,6 +3,7 @@
 #include <exemplar/base/words.h>
 #include <exemplar/body/grain_axes.h>
 #include <exemplar/mesh/map_name.h>
+#include <exemplar/obstacles/obstacle_shape.h>
 #include <exemplar/run/scene/files_of_keys.h>
 #include <exemplar/surface/files/numbered_files.h>
 
@@ -39,6 +40,8 @@ namespace Exemplar
     }
     else if (key.key == "Select")
       append_names(Selection{ key.value }, key.path(), names);
+    else if (key.key == "Shape" && !file_of_shape(key.value).empty())
+      names.push_back(file_of_shape(key.value));
     return names;
   }
 

@@ -78,6 +78,12 @@ namespace Exemplar
         { scene.examples.weights == WeightRule::prescribed,
           { "Examples/Weight penalty" },
           "with prescribed weights, of which none is looked for. Remove it." },
+        { scene.obstacles.empty(),
+          { "Obstacles/Distance", "Obstacles/Slip speed", "Obstacles/Lag tolerance" },
+          "without Obstacles/Names. Set that, or remove it." },
+        { !scene.obstacles.empty() && !scene.obstacles.has_friction(),
+          { "Obstacles/Slip speed", "Obstacles/Lag tolerance" },
+          "without friction. Set Obstacles/NAME/Friction, or remove it." },
         { !is_dynamic,
           { "Solver/Step tolerance" },
           "in a scene that is not dynamic, whose steps are solved to Solver/Tolerance. Set that "

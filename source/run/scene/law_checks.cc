@@ -74,7 +74,7 @@ namespace Exemplar
       case Beside::unblended_examples:
         return scene.examples.in_use() && scene.examples.energy != ExampleEnergy::blended;
       case Beside::own_elasticity:
-        return scene.examples.in_use() && scene.examples.elasticity().is_own();
+        return scene.examples.elasticity().is_own();
       case Beside::varying_importance:
         return scene.examples.in_use() && scene.material.importance_varies();
       }

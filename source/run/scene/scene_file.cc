@@ -43,8 +43,8 @@ namespace Exemplar
       return warnings;
     }
 
-    /// Whether the subsection is named, that is two deep: Handles/NAME, Loads/NAME, Material/region
-    /// N.
+    /// Whether the subsection is named, that is two deep: Handles/NAME, Loads/NAME, Obstacles/NAME,
+    /// Material/region N.
     bool
     is_named(const Assignment &assignment)
     {
@@ -132,10 +132,12 @@ namespace Exemplar
     keys.apply(assignments, directory());
     check_names(handle_names, "Handles");
     check_names(load_names, "Loads");
+    check_names(obstacle_names, "Obstacles");
     refuse_misspelt_names(unknown);
     std::vector<std::string> warnings;
     for (const auto &[section, names] :
-         { std::pair("Handles", &handle_names), std::pair("Loads", &load_names) })
+         { std::pair("Handles", &handle_names), std::pair("Loads", &load_names),
+           std::pair("Obstacles", &obstacle_names) })
       for (const std::string &warning :
            drop_unlisted(named, assignments, overrides, section, *names))
         warnings.push_back(warning);
@@ -169,7 +171,8 @@ namespace Exemplar
   {
     for (const Assignment &a : unknown)
       if (a.subsections == std::vector<std::string>{ "Handles" }
-          || a.subsections == std::vector<std::string>{ "Loads" })
+          || a.subsections == std::vector<std::string>{ "Loads" }
+          || a.subsections == std::vector<std::string>{ "Obstacles" })
         if (is_near(a.key, "Names"))
           keys.apply({ a }, directory());
   }
@@ -198,6 +201,12 @@ namespace Exemplar
     parameters.loads.declare(keys);
     keys.add_names("Names", load_names,
                    "Names of dead forces, separated by commas; each has a subsection.");
+    keys.leave_subsection();
+    keys.enter_subsection("Obstacles");
+    keys.add_names(
+        "Names", obstacle_names,
+        "Names of what the body may not pass, separated by commas; each has a subsection.");
+    parameters.obstacles.declare(keys);
     keys.leave_subsection();
     parameters.initial.declare(keys);
     parameters.time.declare(keys);
@@ -233,6 +242,7 @@ namespace Exemplar
     };
     declare_named("Handles", handle_names, parameters.handles);
     declare_named("Loads", load_names, parameters.loads.named);
+    declare_named("Obstacles", obstacle_names, parameters.obstacles.named);
   }
 
   void
@@ -243,6 +253,9 @@ namespace Exemplar
     for (const DeclaredKey &key : keys.keys())
       if (key.key == "Fibre direction")
         keys.set(key.path(), absolute_fibre_direction(key.value, directory()));
+    for (const ObstacleParameters &obstacle : parameters.obstacles.named)
+      keys.set("Obstacles/" + obstacle.name + "/Shape",
+               ObstacleParameters::absolute_shape(obstacle.shape, directory()));
   }
 
   void
@@ -269,8 +282,9 @@ namespace Exemplar
   {
     SceneFile samples;
     samples.declare_sections();
-    samples.handle_names = { "NAME" };
-    samples.load_names   = { "NAME" };
+    samples.handle_names   = { "NAME" };
+    samples.load_names     = { "NAME" };
+    samples.obstacle_names = { "NAME" };
     samples.declare_named_subsections({ { { "Material", "region 1" }, "", "", "" } });
     return samples.get_keys();
   }

@@ -101,6 +101,8 @@ namespace Exemplar
     check_laws();
     check_starts();
     check_solver();
+    if (!obstacles.empty())
+      check_obstacles();
     if (mesh.surface_file().empty())
       check_without_surface();
     mesh.check_carried();
@@ -159,6 +161,34 @@ namespace Exemplar
             "Solver/Linear solver = umfpack solves linear systems without bounds and cannot tell "
             "an indefinite one. Set Solver/Method = fixed point and Examples/Weights = free, or "
             "Solver/Linear solver = cholesky." } });
+  }
+
+  void
+  CompleteScene::check_obstacles() const
+  {
+    const std::string all = "Obstacles/Names lists what the body may not pass, but ";
+    refuse(
+        { { scene == SceneKind::interpolation,
+            all
+                + "an interpolation follows its prescribed weights. Set Scene = static, or leave "
+                  "Obstacles/Names empty." },
+          { model.is_frozen() || solver.method == Method::one_pass
+                || solver.method == Method::fixed_point,
+            all
+                + "Model/Gradient = frozen and Solver/Method = one pass or fixed point minimise no "
+                  "energy, so that nothing keeps it out. Set Model/Gradient = consistent and "
+                  "Solver/Method = auto, or leave Obstacles/Names empty." },
+          { solver.starts == Starts::examples,
+            all + "Solver/Starts = examples puts it anywhere. Set Solver/Starts = state." },
+          { output.space_error != SpaceErrorUse::never,
+            all
+                + "Output/Space error compares with a body whose other nodes may be inside of "
+                  "them. Set Output/Space error = false." },
+          { loads.balanced, all
+                                + "Loads/Balanced = true lets handles bear it. Set Loads/Balanced "
+                                  "= false, or leave "
+                                  "Obstacles/Names empty." } });
+    obstacles.check();
   }
 
   void

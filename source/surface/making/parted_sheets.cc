@@ -5,17 +5,93 @@
 #include <exemplar/surface/files/numbered_files.h>
 #include <exemplar/surface/filling/cell_angles.h>
 #include <exemplar/surface/making/parted_sheets.h>
-#include <exemplar/surface/making/sheet_crossings.h>
 #include <exemplar/surface/posing/pose_carrying.h>
+#include <exemplar/surface/shape/surface_checks.h>
+#include <exemplar/surface/shape/surface_geometry.h>
+#include <exemplar/surface/shape/triangle_surface.h>
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <numeric>
+#include <utility>
 
 namespace Exemplar
 {
   namespace
   {
+    /// Faults that violate the preconditions of self_intersections().
+    const std::vector<std::string> unsound
+        = { "edges of more than two faces", "vertices where the surface touches itself",
+            "faces turned against their neighbours", "one-sided" };
+
+    std::vector<bool>
+    unsound_triangles(const TriangleSurface &surface)
+    {
+      std::vector<bool> triangles(surface.triangles.size(), false);
+      std::vector<bool> vertices(surface.vertices.size(), false);
+      for (const FaultyElement &element : check_surface({ surface, {} }).elements)
+        if (std::find(unsound.begin(), unsound.end(), element.fault) != unsound.end())
+          (element.is_face ? triangles : vertices)[element.index] = true;
+      for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (const unsigned int vertex : surface.triangles[t])
+          triangles[t] = triangles[t] || vertices[vertex];
+      return triangles;
+    }
+
+    /// Finds crossings between sheets of a surface, for any positions of its vertices.
+    class SheetCrossings
+    {
+    public:
+      /// Leaves out triangles that are faulty by themselves (edges of more than two triangles,
+      /// turned triangles).
+      explicit SheetCrossings(const TriangleSurface &surface);
+
+      /// Pairs of triangles that cross, by their numbers in the surface.
+      std::vector<std::pair<unsigned int, unsigned int>>
+      pairs(const std::vector<SurfaceMesh::Vertex> &vertices) const;
+
+    private:
+      TriangleSurface           sound;   ///< the surface without faulty triangles
+      std::vector<unsigned int> numbers; ///< of each triangle of `sound`, its number in the surface
+    };
+
+    SheetCrossings::SheetCrossings(const TriangleSurface &surface)
+        : sound(surface), numbers(surface.triangles.size())
+    {
+      std::iota(numbers.begin(), numbers.end(), 0U);
+      for (std::vector<bool> bad                                     = unsound_triangles(sound);
+           std::find(bad.begin(), bad.end(), true) != bad.end(); bad = unsound_triangles(sound))
+      {
+        std::size_t n = 0;
+        for (std::size_t t = 0; t < bad.size(); ++t)
+          if (!bad[t])
+          {
+            sound.triangles[n] = sound.triangles[t];
+            sound.groups[n]    = sound.groups[t];
+            numbers[n++]       = numbers[t];
+          }
+        sound.triangles.resize(n);
+        sound.groups.resize(n);
+        numbers.resize(n);
+      }
+    }
+
+    std::vector<std::pair<unsigned int, unsigned int>>
+    SheetCrossings::pairs(const std::vector<SurfaceMesh::Vertex> &vertices) const
+    {
+      TriangleSurface placed = sound;
+      placed.vertices        = vertices;
+      auto found             = self_intersections(placed);
+      for (auto &[a, b] : found)
+      {
+        a = numbers[a];
+        b = numbers[b];
+      }
+      return found;
+    }
+
     using Vertices = std::vector<SurfaceMesh::Vertex>;
     using Pairs    = std::vector<std::pair<unsigned int, unsigned int>>;
     using Points   = FoldPotential::Points;
@@ -159,6 +235,12 @@ namespace Exemplar
       remove_slivers(mesh);
     }
   } // namespace
+
+  bool
+  has_crossing_sheets(const SurfaceMesh &surface)
+  {
+    return !SheetCrossings(triangulate(surface)).pairs(surface.vertices).empty();
+  }
 
   MeshedSurface
   mesh_parted(const SurfaceMeshingOptions &options)

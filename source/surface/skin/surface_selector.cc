@@ -185,7 +185,8 @@ namespace Exemplar
         const std::string none
             = fmt::format("{} selects no node at vertex {}: ", choice, vertex + 1);
         if (std::isinf(minimum))
-          throw UserError(none + "no face of the surface uses this vertex. Pick one that lies on a face.");
+          throw UserError(
+              none + "no face of the surface uses this vertex. Pick one that lies on a face.");
         throw UserError(
             none + "the nearest node of the boundary of " + mesh.get_name() + " is "
             + short_text(minimum)

@@ -154,6 +154,31 @@ namespace Exemplar::Testing
       EXPECT_LT(difference(refined, exact), 1e-12);
     }
 
+    TEST(MultifrontalFactorTest, EntriesOfTheInverseAreThoseOfItsColumns)
+    {
+      for (const int n : { 3, 14 }) // without subtrees, and with some
+      {
+        const SparseMatrix matrix = laplacian(n, 1.);
+        const auto         rough  = with(make_cholesky_operator(2), matrix);
+        rough->factorize_roughly({});
+        const std::unique_ptr<KeptInverse>    inverse = rough->keep();
+        const std::unique_ptr<InverseEntries> entries = inverse->entries();
+        const int                             last    = n * n * n - 1;
+        const std::vector<int>                unknowns
+            = { 0, 1, last / 2, last / 2 + n, last / 3, last - 1, last };
+        for (std::size_t i = 0; i < unknowns.size(); ++i)
+          EXPECT_EQ(entries->add(unknowns[i]), i);
+        for (std::size_t j = 0; j < unknowns.size(); ++j)
+        {
+          std::vector<double> column(matrix.pattern.n());
+          column[unknowns[j]] = 1.;
+          inverse->apply(column);
+          for (std::size_t i = 0; i < unknowns.size(); ++i)
+            EXPECT_NEAR(entries->entry(i, j), column[unknowns[i]], 1e-6 * column[unknowns[j]]);
+        }
+      }
+    }
+
     TEST(MultifrontalFactorTest, SmallForcesKeepTheirDigitsInSinglePrecision)
     {
       const SparseMatrix matrix = laplacian(4, 1.);

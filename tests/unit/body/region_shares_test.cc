@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/body/regions.h>
 
 #include "body.h"
 
@@ -21,9 +22,9 @@ namespace Exemplar::Testing
     TEST(RegionShares, WithoutLengthACellBelongsToItsRegion)
     {
       const Body         body(bar_of_two_regions(1.5));
-      const RegionShares shares(body.mesh, 0.);
+      const RegionShares shares = regions_of_materials(body.mesh, 0.);
       ASSERT_EQ(shares.n_regions(), 2u);
-      EXPECT_EQ(shares.material_id(1), 2u);
+      EXPECT_EQ(shares.id(1), 2u);
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
         EXPECT_EQ(shares.share(cell, 1), centroid_x(body, cell) < 1.5 ? 0. : 1.);
     }
@@ -33,7 +34,7 @@ namespace Exemplar::Testing
       // in a long bar: 1/2 exp(-d/l) on the far side of the border, l = length / (2 sqrt 3)
       const double       length = 1.2, l = length / std::sqrt(12.);
       const Body         body(bar_of_two_regions(2., box_mesh(4., 160, 1)));
-      const RegionShares shares(body.mesh, length);
+      const RegionShares shares = regions_of_materials(body.mesh, length);
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
       {
         const double x = centroid_x(body, cell), far = 0.5 * std::exp(-std::abs(x - 2.) / l);
@@ -46,7 +47,7 @@ namespace Exemplar::Testing
     {
       // a few cells of 24,000, and a length that spreads it over the whole bar
       const Body         body(bar_of_two_regions(3.9997, box_mesh(4., 4000, 1)));
-      const RegionShares shares(body.mesh, 1e3);
+      const RegionShares shares  = regions_of_materials(body.mesh, 1e3);
       double             maximum = 0.;
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
         maximum = std::max(maximum, shares.share(cell, 1));
@@ -58,7 +59,7 @@ namespace Exemplar::Testing
     TEST(RegionShares, OneRegionIsGlobal)
     {
       const Body         body;
-      const RegionShares shares(body.mesh, 1.);
+      const RegionShares shares = regions_of_materials(body.mesh, 1.);
       for (unsigned int cell = 0; cell < body.fe_space.n_cells(); ++cell)
         EXPECT_EQ(shares.share(cell, 0), 1.);
     }
@@ -66,7 +67,7 @@ namespace Exemplar::Testing
     TEST(RegionShares, ThatArePaintedSumToOne)
     {
       // less than one, more than one, one, and as good as nothing
-      const RegionShares shares({ { .25, 1., 1., 1e-6 }, { .5, 1., 0., 0. } });
+      const RegionShares shares = painted_regions({ { .25, 1., 1., 1e-6 }, { .5, 1., 0., 0. } });
       ASSERT_EQ(shares.n_regions(), 3u);
       const double expected[4][3]
           = { { .25, .25, .5 }, { 0., .5, .5 }, { 0., 1., 0. }, { 1., 0., 0. } };
@@ -74,15 +75,15 @@ namespace Exemplar::Testing
         for (unsigned int region = 0; region < 3; ++region)
           EXPECT_DOUBLE_EQ(shares.share(cell, region), expected[cell][region]);
       for (unsigned int region = 0; region < 3; ++region)
-        EXPECT_EQ(shares.material_id(region), region);
+        EXPECT_EQ(shares.id(region), region);
     }
 
     TEST(RegionShares, HaveNoRestWherePaintCoversAll)
     {
-      const RegionShares shares({ { .5, 1. }, { .5, 0. } });
+      const RegionShares shares = painted_regions({ { .5, 1. }, { .5, 0. } });
       ASSERT_EQ(shares.n_regions(), 2u);
-      EXPECT_EQ(shares.material_id(0), 1u);
-      EXPECT_THROW(RegionShares({ { 1., 1. }, { 0., 0. } }), UserError);
+      EXPECT_EQ(shares.id(0), 1u);
+      EXPECT_THROW(painted_regions({ { 1., 1. }, { 0., 0. } }), UserError);
     }
 
     TEST(Material, PaintIsAFactorOfEachRegionOrStandsInstead)

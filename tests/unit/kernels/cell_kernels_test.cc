@@ -55,7 +55,7 @@ namespace Exemplar::Testing
 
         CellTask task;
         task.cells                  = batches.arrays();
-        task.examples               = examples->arrays();
+        task.examples               = examples->get_strains().arrays();
         task.damping                = { damping.data(), past.data() };
         task.positions              = positions.data();
         task.weights                = weights.data();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/mesh/geo_text.h>
-#include <exemplar/mesh/merged_formats.h>
 
 #include "expect_contains.h"
 #include "temporary_directory.h"

@@ -23,7 +23,7 @@ namespace Exemplar::Testing
                                            body.cell_material, body.patches, *examples.poses,
                                            *examples.weights, free_dofs, n_threads });
         potential.attach(pattern);
-        const Vector           x          = body.drawn(length, 1. / std::sqrt(length), 7);
+        const Vector              x       = body.drawn(length, 1. / std::sqrt(length), 7);
         const std::vector<double> weights = { 0.1, 0.3, 0.6 };
         potential.evaluate(x, weights, evaluation, RotationUse::update);
         linear_term = potential.weight_linear_term(x, RotationUse::update);
@@ -91,7 +91,7 @@ namespace Exemplar::Testing
               to[4 * sums.get_places()[i]] += 1.;
           });
       Vector n_cells(body.fe_space.n_dofs()), scales(body.fe_space.n_nodes());
-      sums.add_to(n_cells, scales);
+      sums.copy_to(n_cells, scales);
       std::vector<double> expected(body.fe_space.n_nodes(), 0.);
       for (std::size_t i = 0; i < 4 * batch_size * cells.n_batches(); ++i)
         expected[cells.nodes[i]] += 1.;

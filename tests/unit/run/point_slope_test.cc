@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/run/adjoint/point_slope.h>
+#include <exemplar/run/adjoint/slope_of_points.h>
 
 #include "matrices.h"
 

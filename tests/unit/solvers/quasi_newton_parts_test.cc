@@ -20,10 +20,18 @@ namespace Exemplar::Testing
     predict(const std::vector<std::vector<double>> &sequence,
             const unsigned int                      order = LinearPrediction::max_order)
     {
-      LinearPrediction prediction(Exchange::serial(), order);
-      for (const std::vector<double> &vector : sequence)
+      LinearPrediction    prediction(Exchange::serial(), order);
+      std::vector<double> next;
+      for (std::vector<double> vector : sequence)
         prediction.add(vector);
-      return prediction.next();
+      prediction.predict(next);
+      return next;
+    }
+
+    void
+    add_pair(Lbfgs &lbfgs, std::vector<double> s, std::vector<double> y)
+    {
+      lbfgs.add_pair(s, y);
     }
 
     /// Samples of t -> (f, g, h), the newest at t = 0.
@@ -91,9 +99,10 @@ namespace Exemplar::Testing
       // the secant equation: what made a change y of the gradient was s
       Lbfgs                     lbfgs(Exchange::serial());
       const std::vector<double> s = { 1., -2., 0.5 }, y = { 2., -1., 0.3 };
-      lbfgs.add_pair({ 0.1, 0.2, 0.3 }, { 0.2, 0.2, 0.9 });
-      lbfgs.add_pair(s, y);
-      lbfgs.add_pair(s, { -2., 1., -0.3 }); // curves downwards: not taken
+      for (std::size_t i = 0; i < Lbfgs::max_pairs; ++i) // of which the first leaves
+        add_pair(lbfgs, { 0.1, 0.2, 0.3 }, { 0.2, 0.2, 0.9 });
+      add_pair(lbfgs, s, y);
+      add_pair(lbfgs, s, { -2., 1., -0.3 }); // curves downwards: not taken
       std::vector<double> vector = y;
       lbfgs.before(vector);
       for (double &entry : vector)

@@ -3,7 +3,7 @@
 #include <exemplar/mesh/mesh_generation.h>
 #include <exemplar/study/study_file.h>
 #include <exemplar/study/study_measures.h>
-#include <exemplar/study/study_plot.h>
+#include <exemplar/study/study_report.h>
 #include <exemplar/study/study_table.h>
 
 #include "temporary_directory.h"

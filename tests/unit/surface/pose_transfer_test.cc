@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/mesh/mesh.h>
-#include <exemplar/surface/posing/pose_transfer.h>
+#include <exemplar/surface/posing/pose_carrying.h>
 
 #include "fold_bodies.h"
 #include "matrices.h"

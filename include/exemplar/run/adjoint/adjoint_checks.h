@@ -4,7 +4,7 @@
 
 #include <exemplar/run/problem/problem.h>
 
-// Preconditions of derivatives_of_slope().
+// Preconditions of derivatives_of_slope() and of trajectory_gradients().
 
 namespace Exemplar
 {
@@ -12,11 +12,6 @@ namespace Exemplar
   /// not give.
   bool
   has_orthotropic_cells(const Problem &problem);
-
-  /// Throws UserError, by name, for terms of the potential that derivatives_of_slope() does not
-  /// know.
-  void
-  require_known_potential(const Problem &problem);
 
   /// Throws UserError as above, and for scenes that are not static or whose state depends on the
   /// path.
@@ -30,6 +25,15 @@ namespace Exemplar
   /// Throws UserError for a state that is not in equilibrium.
   void
   require_equilibrium(const Problem &problem, const Evaluation &evaluation);
+
+  /// Throws UserError, by name, for scenes that gradients through steps do not know.
+  void
+  require_known_steps(const Problem &problem);
+
+  /// Throws UserError if the state does not solve the equations of `step`, counted from 0, to the
+  /// scene's tolerance, which for quasi-Newton steps is Solver/Step tolerance.
+  void
+  require_solved_step(const Problem &problem, const Evaluation &evaluation, unsigned int step);
 } // namespace Exemplar
 
 #endif

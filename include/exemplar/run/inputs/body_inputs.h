@@ -22,7 +22,8 @@ namespace Exemplar
     std::vector<unsigned int>        patches; ///< patch of each cell, see Patches; empty: none
     std::vector<std::vector<double>> shares;  ///< of Examples/Weight maps, a value a cell
     NamedPoses                       poses;
-    NamedNodes                       nodes; ///< of all selections, by their texts
+    NamedNodes                       nodes;     ///< of all selections, by their texts
+    ObstacleSurfaces                 obstacles; ///< [m]; all of them in each process
     /// Support of an interpolation; its nodes are those of the whole body.
     std::optional<StaticallyDeterminateSupport> support;
 
@@ -30,9 +31,9 @@ namespace Exemplar
     void
     serialize(Archive &archive, unsigned int /*version*/)
     {
-      archive &material &patches &shares &poses &nodes;
-      bool                                       has_support = support.has_value();
-      archive                                   &has_support;
+      archive &material &patches &shares &poses &nodes &obstacles;
+      bool                                              has_support = support.has_value();
+      archive                                          &has_support;
       if (has_support && !support)
         support.emplace();
       if (has_support)

@@ -3,6 +3,7 @@
 #define exemplar_inputs_h
 
 #include <exemplar/mesh/mesh_inputs.h>
+#include <exemplar/obstacles/obstacle.h>
 #include <exemplar/run/inputs/surface_inputs.h>
 #include <exemplar/surface/files/painted_map.h>
 #include <exemplar/surface/files/point_cache.h>
@@ -35,7 +36,8 @@ namespace Exemplar
     NamedMaps                   maps    = {}; ///< on the surface's vertices, by FILE:ATTRIBUTE
     /// The caches of Follow cache, by handle names. Sequences of files keep a reference to the
     /// surface.
-    std::map<std::string, std::shared_ptr<const PointCache>> caches = {};
+    std::map<std::string, std::shared_ptr<const PointCache>> caches    = {};
+    ObstacleSurfaces                                         obstacles = {};
     /// Report on meshes and poses made of surfaces; null if none were.
     std::shared_ptr<const MadeOfSurfaces> made = {};
     /// Walls around gmsh's geometry, see MshFile::geo_walls.

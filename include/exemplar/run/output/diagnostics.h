@@ -95,10 +95,13 @@ namespace Exemplar
     StatisticsRow
     present_row(const State &shown, const SolveReport &report) const;
 
-    const Problem           &problem;
-    std::vector<std::string> columns;        ///< of rows; empty: as the problem is now
-    Vector                   last_positions; ///< before the next step [m]
-    Work                     work;
+    const Problem            &problem;
+    std::vector<std::string>  columns;          ///< of rows; empty: as the problem is now
+    Vector                    last_positions;   ///< before the next step [m]
+    Vector                    displacement;     ///< memory of add_step()
+    std::vector<unsigned int> held;             ///< degrees of freedom of the handles
+    unsigned int              held_version = 0; ///< of the FreeDofs when they were asked for them
+    Work                      work;
   };
 } // namespace Exemplar
 

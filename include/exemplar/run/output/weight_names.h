@@ -15,25 +15,29 @@ namespace Exemplar
 {
   /// `prefix`, or `prefix`_R with the region's material id R where weights are by region.
   inline std::string
-  name_of_region(const std::string &prefix, const ExamplePoses &poses, const unsigned int region)
+  name_of_region(const std::string    &prefix,
+                 const ExampleTargets &examples,
+                 const unsigned int    region)
   {
-    const auto id = poses.get_regions().material_id(region);
+    const auto id = examples.region_id(region);
     return id ? fmt::format("{}_{}", prefix, *id) : prefix;
   }
 
   /// `prefix`_i or `prefix`_R_i of the weight of example i.
   inline std::string
-  name_of_weight(const std::string &prefix, const ExamplePoses &poses, const unsigned int weight)
+  name_of_weight(const std::string    &prefix,
+                 const ExampleTargets &examples,
+                 const unsigned int    weight)
   {
-    const unsigned int n = poses.size();
-    return fmt::format("{}_{}", name_of_region(prefix, poses, weight / n), weight % n);
+    const unsigned int n = examples.size();
+    return fmt::format("{}_{}", name_of_region(prefix, examples, weight / n), weight % n);
   }
 
   /// Short name of an example: its file without folders and extension, "rest", or "formula i".
   inline std::string
-  short_name_of_pose(const ExamplePoses &poses, const unsigned int i)
+  short_name_of_pose(const ExampleTargets &examples, const unsigned int i)
   {
-    const std::string &name = poses.name(i);
+    const std::string &name = examples.name(i);
     return name.find(';') == std::string::npos ? std::filesystem::path(name).stem().string()
                                                : fmt::format("formula {}", i); // as it is long
   }

@@ -183,6 +183,7 @@ namespace Exemplar
     require_loads();
 
     Changes                        changes;
+    State                          spare;   ///< memory of a step's end, with the one before in it
     std::unique_ptr<Laboratory>    lab;     ///< null until it is used
     std::unique_ptr<SessionPlayer> session; ///< null unless the scene has one
   };

@@ -8,6 +8,8 @@
 #include <exemplar/body/mass.h>
 #include <exemplar/body/supports.h>
 #include <exemplar/body/time_integrator.h>
+#include <exemplar/obstacles/contact_surface.h>
+#include <exemplar/obstacles/obstacles.h>
 #include <exemplar/potential/elastic_potential.h>
 #include <exemplar/potential/incremental_potential.h>
 #include <exemplar/potential/initial_stress_term.h>
@@ -144,7 +146,7 @@ namespace Exemplar
     const PotentialTerm *term; ///< the one in the potential of the steps
   };
 
-  /// Loads and inertia of the body.
+  /// Loads and inertia of the body, and what it may not pass.
   struct Actions
   {
     Actions(const SceneParameters &parameters, const Body &body, const BodyInputs &inputs);
@@ -155,20 +157,25 @@ namespace Exemplar
     make_terms(const Body &body, CellField &cells, const TimeIntegrator *integrator_of_terms) const;
 
     std::unique_ptr<Loads>                loads;
-    const std::unique_ptr<Mass>           mass;             ///< in dynamic scenes
-    const std::unique_ptr<TimeIntegrator> integrator;       ///< in dynamic scenes
+    const std::unique_ptr<Mass>           mass;       ///< in dynamic scenes
+    const std::unique_ptr<TimeIntegrator> integrator; ///< in dynamic scenes
+    const std::unique_ptr<Obstacles>      obstacles;
+    const std::unique_ptr<ContactSurface> contact_surface;  ///< with obstacles
     PointStresses                         initial_stresses; ///< empty unless the body is balanced
     std::vector<OwnTerm>                  own_terms;        ///< in order of addition
     std::vector<std::string>              warnings;         ///< of all but own_terms
+    std::vector<std::string>              notes;            ///< of obstacles that were set back
 
     /// Whether the energy bound of doc/dynamics.md, Eq. (12), holds while handles rest.
     const bool energy_is_bounded;
   };
 
-  /// Whether matrix and outer products are assembled apart at first: if multigrid is certain to be
-  /// chosen.
+  /// Whether matrix and outer products are always assembled apart: if multigrid is certain to be
+  /// chosen, with so many weights at most.
   bool
-  is_assembled_in_parts(const SolverParameters &solver, const Exchange &exchange);
+  is_assembled_in_parts(const SolverParameters &solver,
+                        const FESpace          &fe_space,
+                        unsigned int            n_weights);
 
   /// The bordered system of a step with the linear solver of the scene or, if that is automatic,
   /// the faster one; adapts the potential's sparsity pattern to it.

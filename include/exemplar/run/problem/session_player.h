@@ -3,7 +3,7 @@
 #define exemplar_session_player_h
 
 #include <exemplar/potential/spring_term.h>
-#include <exemplar/run/session/lasting_events.h>
+#include <exemplar/run/session/session.h>
 
 #include <map>
 #include <memory>

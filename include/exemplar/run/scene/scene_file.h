@@ -106,6 +106,7 @@ namespace Exemplar
     KeyTable                     keys; ///< bound to `parameters` and the names
     std::vector<std::string>     handle_names;
     std::vector<std::string>     load_names;
+    std::vector<std::string>     obstacle_names;
   };
 } // namespace Exemplar
 

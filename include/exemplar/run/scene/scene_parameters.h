@@ -9,6 +9,7 @@
 #include <exemplar/body/model_parameters.h>
 #include <exemplar/body/time_parameters.h>
 #include <exemplar/mesh/mesh_parameters.h>
+#include <exemplar/obstacles/obstacle_parameters.h>
 #include <exemplar/run/scene/initial_parameters.h>
 #include <exemplar/run/scene/output_parameters.h>
 #include <exemplar/solvers/solver_parameters.h>
@@ -42,6 +43,7 @@ namespace Exemplar
     ExampleParameters             examples;
     std::vector<HandleParameters> handles;
     LoadsParameters               loads;
+    ObstaclesParameters           obstacles;
     InitialParameters             initial;
     TimeParameters                time;
     SolverParameters              solver;
@@ -100,6 +102,9 @@ namespace Exemplar
 
     void
     check_solver() const;
+
+    void
+    check_obstacles() const;
 
     /// Throws UserError for what needs the surface that the scene does not name.
     void

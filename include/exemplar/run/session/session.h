@@ -3,7 +3,10 @@
 #define exemplar_session_h
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Exemplar
@@ -46,6 +49,32 @@ namespace Exemplar
   /// Throws UserError, with the line, for a file that is no session, or whose steps do not ascend.
   RecordedSession
   read_session(const std::filesystem::path &file);
+
+  /// The shortest list of events with the same outcome as those of a session, the steps between
+  /// them left out: at most two for each spring, handle or number. In half an hour a hand moves
+  /// some springs 60,000 times.
+  class LastingEvents
+  {
+  public:
+    /// Add an event; in chronological order.
+    void
+    add(const SessionEvent &event);
+
+    /// Events that bring a body to the same state as all added ones, but for the solver's memory.
+    Session
+    get() const;
+
+  private:
+    /// A spring, a handle or a number: the event that last created or reset it, and the last ones
+    /// after it.
+    struct Subject
+    {
+      std::optional<SessionEvent> made, moved, ended;
+    };
+
+    std::vector<Subject> subjects; ///< in the order of their first events
+    std::map<std::pair<std::string, std::string>, std::size_t> indices; ///< by kind and name
+  };
 } // namespace Exemplar
 
 #endif

@@ -6,6 +6,10 @@
 
 namespace Exemplar
 {
+  /// Whether sheets cross at the surface's own vertices.
+  bool
+  has_crossing_sheets(const SurfaceMesh &surface);
+
   /// mesh_surface() for a surface whose sheets may cross at rest, as lips do: it is filled where
   /// they are apart in `options.poses`, and the cells are carried back to rest, where they may then
   /// overlap. Crossings that no pose parts are treated as without poses, and a note says where they

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_staged_motion_h
+#define exemplar_staged_motion_h
+
+#include <exemplar/body/handles.h>
+#include <exemplar/potential/incremental_potential.h>
+#include <exemplar/solvers/gap_energies.h>
+
+#include <functional>
+
+namespace Exemplar
+{
+  /// Takes obstacles, held nodes and the body to the end of a step where obstacles or held nodes move, in stages: nodes that
+  /// would be overtaken are carried before the obstacle, and the rest of the body follows as its elasticity tells.
+  class StagedMotion
+  {
+  public:
+    /// Overwrites forces, by unknown, by the displacements with which the body follows, also by unknown.
+    using Follow = std::function<void(std::vector<double> &)>;
+
+    /// All must outlive the object.
+    StagedMotion(IncrementalPotential &potential, const Handles &handles)
+        : potential(potential), handles(handles)
+    {
+    }
+
+    /// From positions at `start_time`, where all gaps are open, to those at `time`. `to` holds where the body would be,
+    /// with held nodes where handles put them, and is drawn back or carried to where gaps are open too; obstacles stand where they
+    /// are at `time` then. Returns the number of stages. Throws SolverFailure where that cannot be.
+    unsigned int
+    move(double start_time, const Vector &from, double time, Vector &to, const Follow &follow);
+
+  private:
+    /// Whether held nodes are at other places.
+    bool
+    moves_held(const Vector &from, const Vector &to) const;
+
+    /// Of as many equal parts no handle turns by more than five degrees in one.
+    unsigned int
+    parts_of_turns(double start_time, double time, const Vector &from, const Vector &to) const;
+
+    /// One of these parts, in stages.
+    unsigned int
+    move_part(
+        double start_time, const Vector &from, double time, Vector &to, const Follow &follow) const;
+
+    /// Go a part of a way, and the obstacles that of theirs to `time`.
+    void
+    go(double part, double time, const Vector &way, Vector &at, double &now) const;
+
+    /// Put what is overtaken by obstacles where they stand into the middle of its gaps' widths.
+    void
+    carry(Vector &to, const Follow &follow) const;
+
+    /// The displacement by which these gaps, of which some are closed, become as wide as half their widths.
+    Vector
+    push(const GapEnergies &gaps, const Follow &follow) const;
+
+    /// Say who cannot pass whom on that way between these times [s].
+    [[noreturn]] void
+    refuse(double now, double time, const Vector &from, const Vector &way) const;
+
+    IncrementalPotential &potential;
+    const Handles        &handles;
+    Vector                displacement; ///< of a step without stages, kept for its memory alone
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/obstacles/contact_surface.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace Exemplar
+{
+  namespace
+  {
+    using Corners = std::array<unsigned int, 3>;
+
+    /// The cell of each face, by its ascending vertices, and the vertex that the face lacks.
+    std::map<Corners, std::pair<unsigned int, unsigned int>>
+    cells_of_faces(const Mesh &mesh)
+    {
+      std::map<Corners, std::pair<unsigned int, unsigned int>> result;
+      for (const BoundaryFace &face : mesh.get_boundary_faces())
+      {
+        Corners key = face.nodes;
+        std::sort(key.begin(), key.end());
+        result[key] = {};
+      }
+      for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+        for (unsigned int opposite = 0; opposite < 4; ++opposite)
+        {
+          Corners      key{};
+          unsigned int n = 0;
+          for (unsigned int v = 0; v < 4; ++v)
+            if (v != opposite)
+              key[n++] = mesh.get_cells()[cell][v];
+          std::sort(key.begin(), key.end());
+          if (const auto face = result.find(key); face != result.end())
+            face->second = { cell, mesh.get_cells()[cell][opposite] };
+        }
+      return result;
+    }
+
+    /// The flat triangles of a face, of three or six nodes.
+    std::vector<Corners>
+    flat_triangles(const std::vector<unsigned int> &n)
+    {
+      if (n.size() == 3)
+        return { { { n[0], n[1], n[2] } } };
+      return { { { n[0], n[3], n[5] } },
+               { { n[3], n[1], n[4] } },
+               { { n[5], n[4], n[2] } },
+               { { n[3], n[4], n[5] } } };
+    }
+  } // namespace
+
+  ContactSurface::ContactSurface(const Mesh &mesh, const FESpace &fe_space)
+  {
+    const auto cells = cells_of_faces(mesh);
+    for (const BoundaryFace &face : mesh.get_boundary_faces())
+    {
+      Corners key = face.nodes;
+      std::sort(key.begin(), key.end());
+      const auto &[cell, opposite] = cells.at(key);
+      for (Corners corners : flat_triangles(fe_space.numbering().of_face(face)))
+      {
+        const auto x = [&](const unsigned int k) { return fe_space.rest_position(corners[k]); };
+        const dealii::Tensor<1, 3> n = dealii::cross_product_3d(x(1) - x(0), x(2) - x(0));
+        if (n * (fe_space.rest_position(opposite) - x(0)) > 0.)
+          std::swap(corners[1], corners[2]);
+        triangles.push_back({ corners, cell, 0.5 * n.norm() });
+      }
+    }
+    std::map<std::array<unsigned int, 2>, double> squares;
+    std::map<unsigned int, double>                areas;
+    for (const Triangle &triangle : triangles)
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const auto [i, j] = std::minmax(triangle.nodes[k], triangle.nodes[(k + 1) % 3]);
+        squares[{ { i, j } }]
+            = (fe_space.rest_position(i) - fe_space.rest_position(j)).norm_square();
+        areas[triangle.nodes[k]] += triangle.area / 3.;
+      }
+    for (const auto &[ends, square] : squares)
+      edges.push_back({ ends, square });
+    for (const auto &[node, area] : areas)
+      nodes.push_back({ node, area });
+  }
+
+  void
+  ContactSurface::set_material(const Material &material)
+  {
+    for (Edge &edge : edges)
+      edge.share = 0.;
+    for (Node &node : nodes)
+      node.share = 0.;
+    for (Triangle &triangle : triangles)
+    {
+      triangle.share = material.youngs_modulus(triangle.cell) * triangle.area;
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const auto [i, j] = std::minmax(triangle.nodes[k], triangle.nodes[(k + 1) % 3]);
+        const std::array<unsigned int, 2> ends{ { i, j } };
+        std::lower_bound(edges.begin(), edges.end(), ends,
+                         [](const Edge &edge, const auto &key) { return edge.nodes < key; })
+            ->share
+            += triangle.share / 3.;
+        std::lower_bound(nodes.begin(), nodes.end(), triangle.nodes[k],
+                         [](const Node &node, const unsigned int key) { return node.node < key; })
+            ->share
+            += triangle.share / 3.;
+      }
+    }
+  }
+} // namespace Exemplar

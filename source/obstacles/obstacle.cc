@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/obstacles/box_tree.h>
+#include <exemplar/obstacles/obstacle.h>
+#include <exemplar/surface/shape/triangle_surface.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  dealii::Tensor<2, 3>
+  rotation_by(const SpaceVector3 &vector)
+  {
+    const double         angle = vector.norm();
+    dealii::Tensor<2, 3> result;
+    const double         cosine    = std::cos(angle);
+    const double         sine_part = angle > 0. ? std::sin(angle) / angle : 1.;
+    const double square_part = angle > 0. ? 2. * std::pow(std::sin(0.5 * angle) / angle, 2) : 0.5;
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      result[i][i] += cosine;
+      for (unsigned int j = 0; j < 3; ++j)
+        result[i][j] += square_part * vector[i] * vector[j];
+      const unsigned int j = (i + 1) % 3, k = (i + 2) % 3;
+      result[j][i] += sine_part * vector[k];
+      result[i][j] -= sine_part * vector[k];
+    }
+    return result;
+  }
+
+  namespace
+  {
+    ObstacleShape
+    make_shape(const ObstacleParameters &parameters, const ObstacleSurface *surface)
+    {
+      if (surface == nullptr)
+        return parse_shape(parameters.shape, "Obstacles/" + parameters.name + "/Shape");
+      return shape_of(TriangleSurface{ surface->vertices, surface->triangles, {} });
+    }
+
+    /// Throws UserError for triangles that another edge of the surface passes through.
+    void
+    refuse_crossings(const ObstacleShape &shape, const std::string &key)
+    {
+      const auto          &x = shape.vertices;
+      std::vector<AxisBox> boxes;
+      for (const auto &triangle : shape.triangles)
+      {
+        boxes.emplace_back();
+        for (const unsigned int v : triangle)
+          boxes.back().add(x[v]);
+      }
+      const BoxTree tree(boxes);
+      for (const auto &[i, j] : shape.edges)
+      {
+        AxisBox box;
+        box.add(x[i]);
+        box.add(x[j]);
+        tree.visit(
+            box,
+            [&, i = i, j = j](const unsigned int t)
+            {
+              const auto &corner  = shape.triangles[t];
+              const auto  touches = [&](const unsigned int v)
+              { return std::count(corner.begin(), corner.end(), v) > 0; };
+              if (touches(i) || touches(j)
+                  || !passes_through({ { x[i], x[j] } },
+                                     { { x[corner[0]], x[corner[1]], x[corner[2]] } }))
+                return;
+              const SpaceVector3 place = x[i] + shape.middle;
+              throw UserError(fmt::format(
+                  "{}: the surface intersects itself near ({:.4g}, {:.4g}, {:.4g}) m. Repair "
+                  "it, as by exemplar mesh --repair, or give the parts as two obstacles.",
+                  key, place[0], place[1], place[2]));
+            });
+      }
+    }
+  } // namespace
+
+  Obstacle::Obstacle(const ObstacleParameters &parameters, const ObstacleSurface *surface)
+      : called(parameters.name), coefficient(parameters.friction), when(parameters.time()),
+        own_shape(make_shape(parameters, surface)),
+        motion("Obstacles/" + parameters.name + "/Motion", parameters.motion, "t", 3),
+        turn("Obstacles/" + parameters.name + "/Turn", parameters.turn, "t", 3)
+  {
+    if (surface == nullptr)
+      return;
+    refuse_crossings(own_shape, "Obstacles/" + called + "/Shape");
+    if (surface->times.empty())
+      return;
+    track.times = surface->times;
+    // the samples of the vertices that the shape has, in its order
+    std::vector<int>          seen(surface->vertices.size(), 0);
+    std::vector<unsigned int> used;
+    for (const auto &triangle : surface->triangles)
+      for (const unsigned int v : triangle)
+        if (std::exchange(seen[v], 1) == 0)
+          used.push_back(v);
+    for (const auto &sample : surface->samples)
+    {
+      track.samples.emplace_back();
+      for (const unsigned int v : used)
+        track.samples.back().push_back(sample[v]);
+    }
+  }
+
+  ObstaclePose
+  Obstacle::pose(const double time) const
+  {
+    return { rotation_by(turn.vector({}, time)),
+             own_shape.middle + shift + motion.vector({}, time) };
+  }
+
+  std::vector<SpaceVector3>
+  Obstacle::vertices(const double time) const
+  {
+    if (!deforms())
+      return own_shape.vertices;
+    const std::vector<double> &times = track.times;
+    const auto after = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time)
+                                                - times.begin());
+    const std::size_t last   = times.size() - 1;
+    const std::size_t before = after == 0 ? 0 : after - 1, next = std::min(after, last);
+    const double      share
+        = next > before ? (time - times[before]) / (times[next] - times[before]) : 0.;
+    std::vector<SpaceVector3> result;
+    for (std::size_t v = 0; v < track.samples[before].size(); ++v)
+    {
+      SpaceVector3 x;
+      for (unsigned int c = 0; c < 3; ++c)
+        x[c] = (1. - share) * track.samples[before][v][c] + share * track.samples[next][v][c]
+               - own_shape.middle[c];
+      result.push_back(x);
+    }
+    return result;
+  }
+
+  bool
+  Obstacle::moves_between(const double time, const double other_time) const
+  {
+    if (time == other_time)
+      return false;
+    const ObstaclePose a = pose(time), b = pose(other_time);
+    return a.place != b.place || a.rotation != b.rotation
+           || (deforms() && vertices(time) != vertices(other_time));
+  }
+
+  void
+  Obstacle::set_back(const double by, const SpaceVector3 &direction)
+  {
+    ++n_set_back;
+    if (own_shape.is_surface())
+      shift += by * direction;
+    else
+      own_shape.set_back(by);
+  }
+
+  std::size_t
+  Obstacle::memory_consumption() const
+  {
+    std::size_t bytes = sizeof(*this) + own_shape.vertices.size() * sizeof(SpaceVector3)
+                        + own_shape.edges.size() * sizeof(own_shape.edges[0])
+                        + own_shape.triangles.size() * sizeof(own_shape.triangles[0]);
+    for (const auto &sample : track.samples)
+      bytes += sample.size() * sizeof(sample[0]);
+    return bytes;
+  }
+} // namespace Exemplar

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/obstacles/obstacle_parameters.h>
+#include <exemplar/obstacles/obstacle_shape.h>
+#include <exemplar/prm/key_table.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  void
+  ObstacleParameters::declare(KeyTable &keys)
+  {
+    keys.enter_subsection(name);
+    keys.add(
+        "Shape", shape,
+        "What the body may not pass: " + obstacle_forms
+            + ". A plane is given by a point and by the normal of the side on which the body is; "
+              "FILE (.obj, .ply, .stl) is in the unit of the mesh file.",
+        " ");
+    keys.add("Motion", motion, "Displacement [m], three functions of t [s].", "; ");
+    keys.add(
+        "Turn", turn,
+        "Rotation vector [rad], three functions of t [s], about the point of a plane, the middle "
+        "of other shapes.",
+        "; ");
+    keys.add_file(
+        "Follow cache", follow_cache,
+        "Places of the vertices of a surface in time: a .mdd or .pc2 file, or a sequence of "
+        "surfaces such as rig_*.obj, in the unit of the mesh file. Instead of Motion and "
+        "Turn.");
+    keys.add("Frames per second", frames_per_second, "Of a cache that counts in frames.",
+             Bounds::positive());
+    keys.add("Friction", friction, "Coefficient of Coulomb's friction.");
+    keys.add("From", from, "The obstacle is there in steps that begin at this t [s] or later.");
+    keys.add("Until", until,
+             "The obstacle is there in steps that begin before this t [s]; end: to the end.");
+    keys.leave_subsection();
+  }
+
+  void
+  ObstacleParameters::check() const
+  {
+    const std::string key = "Obstacles/" + name;
+    if (shape.empty())
+      throw UserError(key + "/Shape is not set. Allowed: " + obstacle_forms + ".");
+    if (surface_file().empty())
+    {
+      parse_shape(shape, key + "/Shape");
+      if (!follow_cache.empty())
+        throw UserError(key + "/Follow cache gives the places of a surface's vertices, but " + key
+                        + "/Shape = '" + shape
+                        + "' is no surface. Set Motion and Turn instead, or Shape = surface FILE.");
+    }
+    if (!(friction >= 0.))
+      throw UserError(key + "/Friction = " + shortest_text(friction)
+                      + " is not allowed. Allowed: 0 or more.");
+    const ObstacleParameters usual;
+    if (!follow_cache.empty() && (motion != usual.motion || turn != usual.turn))
+      throw UserError(key + "/Follow cache and " + key
+                      + (motion != usual.motion ? "/Motion" : "/Turn")
+                      + " are both given, but only one of them can say where the obstacle goes. "
+                        "Remove one of them.");
+    if (until != "end" && !std::isfinite(parse_number(until)))
+      throw UserError(key + "/Until = '" + until
+                      + "' is not allowed. Allowed: end, or a time [s].");
+    if (until != "end" && parse_number(until) <= from)
+      throw UserError(key + "/Until = " + until + " is not after " + key
+                      + "/From = " + shortest_text(from) + ": the obstacle would never be there.");
+  }
+
+  HoldingTime
+  ObstacleParameters::time() const
+  {
+    HoldingTime result;
+    result.from = from;
+    if (until != "end")
+      result.until = parse_number(until);
+    return result;
+  }
+
+  std::string
+  ObstacleParameters::surface_file() const
+  {
+    return file_of_shape(shape);
+  }
+
+  std::string
+  ObstacleParameters::absolute_shape(const std::string           &shape,
+                                     const std::filesystem::path &directory)
+  {
+    const std::string file = file_of_shape(shape);
+    if (file.empty() || directory.empty())
+      return shape;
+    return "surface " + (directory / file).lexically_normal().string();
+  }
+
+  void
+  ObstaclesParameters::declare(KeyTable &keys)
+  {
+    keys.add("Distance", distance,
+             "From where obstacles push [m]; auto: 5e-3 of the body's diameter.");
+    keys.add("Slip speed", slip_speed,
+             "Speed [m/s] from which friction is that of a sliding contact: what sticks creeps "
+             "below it; auto: 1e-3 of the body's diameter a second.");
+    keys.add("Lag tolerance", lag_tolerance,
+             "Friction follows normal forces until they change by less than this part of the "
+             "greatest.",
+             Bounds{ 1e-14, 1. });
+  }
+
+  namespace
+  {
+    /// Throws UserError unless the text is auto or a positive number.
+    void
+    check_length(const std::string &text, const std::string &key, const std::string &unit)
+    {
+      if (text != "auto" && !(parse_number(text) > 0. && std::isfinite(parse_number(text))))
+        throw UserError(key + " = '" + text
+                        + "' is not allowed. Allowed: auto, or a positive number [" + unit + "].");
+    }
+  } // namespace
+
+  void
+  ObstaclesParameters::check() const
+  {
+    check_length(distance, "Obstacles/Distance", "m");
+    check_length(slip_speed, "Obstacles/Slip speed", "m/s");
+    for (const ObstacleParameters &obstacle : named)
+      obstacle.check();
+  }
+
+  bool
+  ObstaclesParameters::has_friction() const
+  {
+    return std::any_of(named.begin(), named.end(),
+                       [](const ObstacleParameters &obstacle) { return obstacle.friction > 0.; });
+  }
+
+  double
+  ObstaclesParameters::distance_of(const double diameter) const
+  {
+    if (distance == "auto")
+      return 5e-3 * diameter;
+    const double given = parse_number(distance), least = 1e-6 * diameter, greatest = 0.1 * diameter;
+    if (given < least || given > greatest)
+      throw UserError("Obstacles/Distance = " + distance + " m is "
+                      + (given < least ? "below a millionth" : "above a tenth")
+                      + " of the body's diameter of " + short_text(diameter)
+                      + " m. Take a number between " + short_text(least) + " and "
+                      + short_text(greatest) + ", or auto.");
+    return given;
+  }
+
+  double
+  ObstaclesParameters::slip_speed_of(const double diameter) const
+  {
+    return slip_speed == "auto" ? 1e-3 * diameter : parse_number(slip_speed);
+  }
+} // namespace Exemplar

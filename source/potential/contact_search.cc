@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/potential/contact_search.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// c in k = c E A, doc/contact.md.
+    constexpr double stiffness_factor = 0.1;
+
+    /// Edges are almost parallel where the square of sin of their angle, at rest lengths, is below this.
+    constexpr double parallel = 1e-3;
+
+    /// The part of a gap that a step leaves, at least.
+    constexpr double part_left = 0.1;
+
+    /// Of additive advancement, which takes 157 to 314 rounds at most in random pairs.
+    constexpr unsigned int max_advances = 1000;
+
+    /// Of an obstacle in one go, so that its way in space is almost straight [rad].
+    constexpr double greatest_turn_at_once = 0.0873;
+  } // namespace
+
+  void
+  StandingObstacle::move_to(const double time)
+  {
+    pose               = obstacle->pose(time);
+    const bool is_made = !vertices.empty();
+    if (is_made && !obstacle->deforms() && version == obstacle->version())
+      return;
+    version           = obstacle->version();
+    vertices          = obstacle->vertices(time);
+    around            = {};
+    const auto box_of = [&](const auto &corners)
+    {
+      AxisBox box;
+      for (const unsigned int v : corners)
+        box.add(vertices[v]);
+      around.add(box.widened(shape().radius));
+      return box;
+    };
+    const auto update = [&](const auto &parts, BoxTree &tree)
+    {
+      std::vector<AxisBox> boxes;
+      for (const auto &part : parts)
+        boxes.push_back(box_of(part));
+      if (is_made)
+        tree.move(boxes);
+      else
+        tree = BoxTree(boxes);
+    };
+    std::vector<std::array<unsigned int, 1>> single;
+    for (const unsigned int v : shape().points)
+      single.push_back({ { v } });
+    update(single, points);
+    update(shape().edges, edges);
+    update(shape().triangles, triangles);
+  }
+
+  Places
+  ContactSearch::places_of(const Vector &positions, const ObstaclePose &pose) const
+  {
+    Places result(positions.size() / 3);
+    for (const ContactSurface::Node &at : surface.nodes)
+    {
+      SpaceVector3 x;
+      for (unsigned int c = 0; c < 3; ++c)
+        x[c] = positions[3 * at.node + c];
+      result[at.node] = pose.to_own(x);
+    }
+    return result;
+  }
+
+  namespace
+  {
+    /// The nearest point of a solid box, the origin in its middle; A is the given point.
+    Nearest
+    nearest_of_box(const SpaceVector3 &half_sizes, const SpaceVector3 &point)
+    {
+      Nearest result;
+      result.a[0] = 1.;
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const double inside = std::clamp(point[c], -half_sizes[c], half_sizes[c]);
+        result.way[c]       = point[c] - inside;
+        if (inside == point[c] && result.n_free < 2)
+          result.dv[result.n_free++][c] = 1.;
+      }
+      return result;
+    }
+  } // namespace
+
+  PairCorners
+  ContactSearch::corners(const ContactPair &pair, const Places &places) const
+  {
+    PairCorners result;
+    const auto  take = [&](const auto &nodes)
+    {
+      for (const unsigned int node : nodes)
+      {
+        result.nodes[result.n]  = node;
+        result.places[result.n] = places[node];
+        ++result.n;
+      }
+    };
+    if (pair.kind == PairKind::edge_edge)
+      take(surface.edges[pair.of_body].nodes);
+    else if (pair.kind == PairKind::triangle_point)
+      take(surface.triangles[pair.of_body].nodes);
+    else
+      take(std::array<unsigned int, 1>{ { surface.nodes[pair.of_body].node } });
+    return result;
+  }
+
+  Nearest
+  ContactSearch::nearest_of(const ContactPair &pair, const std::array<SpaceVector3, 3> &x) const
+  {
+    const ObstacleShape &shape  = standing.shape();
+    const auto           corner = [&](const unsigned int v) { return standing.vertices[v]; };
+    const auto           edge   = [&]() -> std::array<SpaceVector3, 2>
+    {
+      const auto &e = shape.edges[pair.of_obstacle];
+      return { { corner(e[0]), corner(e[1]) } };
+    };
+    switch (pair.kind)
+    {
+    case PairKind::node_box:
+      return nearest_of_box(*shape.half_sizes, x[0]);
+    case PairKind::node_triangle:
+    {
+      const auto &t = shape.triangles[pair.of_obstacle];
+      return reversed(nearest({ { corner(t[0]), corner(t[1]), corner(t[2]) } }, x[0]));
+    }
+    case PairKind::node_edge:
+    {
+      Nearest result = nearest({ { x[0], x[0] } }, edge());
+      result.a       = { { 1., 0., 0. } };
+      return result;
+    }
+    case PairKind::edge_edge:
+      return nearest({ { x[0], x[1] } }, edge());
+    default:
+      return nearest(x, corner(shape.points[pair.of_obstacle]));
+    }
+  }
+
+  PairDistance
+  ContactSearch::distance(const ContactPair &pair, const std::array<SpaceVector3, 3> &x) const
+  {
+    PairDistance at;
+    if (pair.kind == PairKind::node_half_space)
+    {
+      const auto &half_space = standing.shape().half_spaces[pair.of_obstacle];
+      at.nearest.a[0]        = 1.;
+      at.normal              = half_space.normal;
+      at.distance            = half_space.normal * x[0] - half_space.offset;
+      at.is_flat             = true;
+      return at;
+    }
+    at.nearest          = nearest_of(pair, x);
+    const double length = at.nearest.way.norm();
+    at.distance         = length - standing.shape().radius;
+    if (length > 0.)
+      at.normal = at.nearest.way / length;
+    return at;
+  }
+
+  double
+  ContactSearch::width(const ContactPair &pair) const
+  {
+    const auto &given = obstacles.start_widths[number];
+    if (given.empty())
+      return obstacles.width;
+    const auto width = given.find(pair.key());
+    return width == given.end() ? obstacles.width : width->second;
+  }
+
+  Contact
+  ContactSearch::contact(const ContactPair  &pair,
+                         const PairCorners  &x,
+                         const PairDistance &at) const
+  {
+    Contact                     result{ number, pair, {}, at, 0., 1., {}, {}, {} };
+    double                      share = 0.;
+    const dealii::Tensor<2, 3> &R     = standing.pose.rotation;
+    if (pair.kind == PairKind::edge_edge)
+    {
+      const ContactSurface::Edge &edge = surface.edges[pair.of_body];
+      share                            = edge.share;
+      const auto        &other         = standing.shape().edges[pair.of_obstacle];
+      const SpaceVector3 e             = R * (x.places[1] - x.places[0]);
+      const SpaceVector3 f      = R * (standing.vertices[other[1]] - standing.vertices[other[0]]);
+      const double       square = dealii::cross_product_3d(e, f).norm_square();
+      const double       full   = parallel * edge.square * f.norm_square();
+      if (square < full)
+      {
+        const double       part         = square / full;
+        const SpaceVector3 by_e         = 2. / full * (f.norm_square() * e - (e * f) * f);
+        result.m                        = part * (2. - part);
+        result.by_edge                  = 2. * (1. - part) * by_e;
+        dealii::Tensor<2, 3> by_e_twice = -dealii::outer_product(f, f);
+        for (unsigned int c = 0; c < 3; ++c)
+          by_e_twice[c][c] += f.norm_square();
+        result.by_edge_twice
+            = 4. * (1. - part) / full * by_e_twice - 2. * dealii::outer_product(by_e, by_e);
+      }
+    }
+    else if (pair.kind == PairKind::triangle_point)
+      share = surface.triangles[pair.of_body].share;
+    else
+      share = surface.nodes[pair.of_body].share;
+    result.full_stiffness = stiffness_factor * share;
+    result.at.normal      = R * at.normal;
+    result.at.nearest.way = R * at.nearest.way;
+    for (unsigned int k = 0; k < at.nearest.n_free; ++k)
+      result.at.nearest.dv[k] = R * at.nearest.dv[k];
+    Gap &gap      = result.gap;
+    gap.n_nodes   = x.n;
+    gap.normal    = result.at.normal;
+    gap.distance  = at.distance;
+    gap.stiffness = result.m * result.full_stiffness;
+    gap.width     = width(pair);
+    SpaceVector3 point;
+    for (unsigned int i = 0; i < x.n; ++i)
+    {
+      gap.nodes[i]        = x.nodes[i];
+      gap.coefficients[i] = at.nearest.a[i];
+      point += at.nearest.a[i] * x.places[i];
+    }
+    result.of_obstacle = standing.pose.to_space(point - at.distance * at.normal);
+    return result;
+  }
+
+  void
+  ContactSearch::append(const Vector         &positions,
+                        const double          range,
+                        std::vector<Contact> &contacts) const
+  {
+    const Places places = places_of(positions);
+    visit_candidates(places, places, range * obstacles.width,
+                     [&](const ContactPair &pair)
+                     {
+                       const PairCorners  x  = corners(pair, places);
+                       const PairDistance at = distance(pair, x.places);
+                       if (at.distance < range * width(pair))
+                         contacts.push_back(contact(pair, x, at));
+                     });
+  }
+
+  double
+  ContactSearch::max_step(const ContactPair                 &pair,
+                          const std::array<SpaceVector3, 3> &x,
+                          const std::array<SpaceVector3, 3> &way,
+                          const unsigned int                 n,
+                          const double                       own_way,
+                          const double                       longest) const
+  {
+    const PairDistance at   = distance(pair, x);
+    const double       left = part_left * at.distance;
+    if (at.is_flat)
+    {
+      const double towards = -(at.normal * way[0]);
+      return towards * longest > at.distance - left ? std::max(0., (at.distance - left) / towards)
+                                                    : longest;
+    }
+    double speed = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      speed = std::max(speed, way[i].norm());
+    speed += own_way;
+    // additive: nothing is passed on a way that is shorter than the distance
+    if (!(speed * longest > at.distance - left))
+      return longest;
+    if (!(at.distance > 0.))
+      return 0.;
+    double part = (at.distance - left) / speed, tried = part;
+    for (unsigned int round = 0; round < max_advances; ++round)
+    {
+      tried = std::min(tried, longest);
+      std::array<SpaceVector3, 3> moved;
+      for (unsigned int i = 0; i < n; ++i)
+        moved[i] = x[i] + tried * way[i];
+      const double now = distance(pair, moved).distance - tried * own_way;
+      if (!(now >= left) || tried == longest)
+        return now >= left ? longest : part;
+      part  = tried;
+      tried = part + (1. - part_left) * now / speed;
+    }
+    return part;
+  }
+
+  double
+  ContactSearch::max_step(const Places &places,
+                          const Places &ends,
+                          const double  own_way,
+                          double        longest) const
+  {
+    visit_candidates(places, ends, own_way,
+                     [&](const ContactPair &pair)
+                     {
+                       const PairCorners           x = corners(pair, places);
+                       std::array<SpaceVector3, 3> way;
+                       for (unsigned int i = 0; i < x.n; ++i)
+                         way[i] = ends[x.nodes[i]] - x.places[i];
+                       longest = max_step(pair, x.places, way, x.n, own_way, longest);
+                     });
+    return longest;
+  }
+
+  double
+  ContactSearch::max_step(const Vector &positions, const Vector &displacement) const
+  {
+    Vector end = positions;
+    end += displacement;
+    // what lies beyond the displacement has not been looked at, but half spaces know
+    const double longest
+        = standing.shape().vertices.empty() ? std::numeric_limits<double>::infinity() : 1.;
+    return max_step(places_of(positions), places_of(end), 0., longest);
+  }
+
+  double
+  ContactSearch::max_step_to(const double  time,
+                             const Vector &positions,
+                             const Vector &displacement) const
+  {
+    Vector end = positions;
+    end += displacement;
+    const Obstacle    &obstacle = *standing.obstacle;
+    const ObstaclePose pose     = obstacle.pose(time);
+    const double       cosine
+        = 0.5 * (trace(dealii::transpose(standing.pose.rotation) * pose.rotation) - 1.);
+    const double turn    = std::acos(std::clamp(cosine, -1., 1.));
+    double       own_way = 0.;
+    if (obstacle.deforms())
+    {
+      const std::vector<SpaceVector3> vertices = obstacle.vertices(time);
+      for (std::size_t v = 0; v < vertices.size(); ++v)
+        own_way = std::max(own_way, (vertices[v] - standing.vertices[v]).norm());
+    }
+    return max_step(places_of(positions), places_of(end, pose), own_way,
+                    turn > greatest_turn_at_once ? greatest_turn_at_once / turn : 1.);
+  }
+} // namespace Exemplar

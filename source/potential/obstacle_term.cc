@@ -1,0 +1,514 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/potential/barrier.h>
+#include <exemplar/potential/contact_clearance.h>
+#include <exemplar/potential/nodal_vectors.h>
+#include <exemplar/potential/obstacle_term.h>
+
+#include <boost/serialization/vector.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace Exemplar
+{
+  ObstacleTerm::ObstacleTerm(const Obstacles      &obstacles,
+                             const ContactSurface &surface,
+                             const Material       &material)
+      : obstacles(obstacles), surface(surface), material(material),
+        have_friction(obstacles.have_friction()), sums_of(obstacles.all.size()),
+        has_appeared(obstacles.all.size(), 0), least_gap(obstacles.width)
+  {
+    for (const Obstacle &obstacle : obstacles.all)
+      standing.emplace_back(obstacle);
+    move_to(0.);
+    follow_parameters();
+  }
+
+  void
+  ObstacleTerm::attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs)
+  {
+    pattern   = &new_pattern;
+    free_dofs = &new_free_dofs;
+    if (!node_areas.empty())
+      return;
+    node_areas.assign(free_dofs->n_dofs() / 3, 0.);
+    for (const ContactSurface::Node &node : surface.nodes)
+      node_areas[node.node] = node.area;
+    free_dofs->exchange().assemble(node_areas.data(), 1);
+  }
+
+  void
+  ObstacleTerm::follow_parameters()
+  {
+    surface.set_material(material);
+  }
+
+  void
+  ObstacleTerm::set_time(const double new_time)
+  {
+    move_to(new_time);
+  }
+
+  void
+  ObstacleTerm::move_to(const double new_time)
+  {
+    time = new_time;
+    for (StandingObstacle &obstacle : standing)
+      obstacle.move_to(time);
+  }
+
+  std::vector<Contact>
+  ObstacleTerm::contacts(const Vector &positions, const double range) const
+  {
+    std::vector<Contact> result;
+    for (unsigned int i = 0; i < standing.size(); ++i)
+      if (is_there(i))
+        ContactSearch(surface, obstacles, standing[i], i).append(positions, range, result);
+    return result;
+  }
+
+  void
+  ObstacleTerm::append_gaps(const Vector     &positions,
+                            const double      range,
+                            std::vector<Gap> &gaps) const
+  {
+    for (const Contact &contact : contacts(positions, range))
+      if (contact.gap.stiffness > 0.)
+        gaps.push_back(contact.gap);
+    for (const Rubbing &at : rubbing)
+    {
+      const SlipEnergy energy = slip_energy(at);
+      Gap              gap    = at.gap;
+      gap.stiffness           = 0.; // where it rubs is not where it is nearest by now
+      gap.distance            = gap.width;
+      gap.friction            = energy.greatest;
+      gap.slip_width          = energy.e;
+      gap.friction_normal     = at.gap.normal;
+      gap.slip                = slip(at, positions);
+      gaps.push_back(gap);
+    }
+  }
+
+  double
+  ObstacleTerm::max_step_to(const double  to_time,
+                            const Vector &positions,
+                            const Vector &displacement) const
+  {
+    double part = std::numeric_limits<double>::infinity();
+    for (unsigned int i = 0; i < standing.size(); ++i)
+      if (is_there(i))
+        part = std::min(part, ContactSearch(surface, obstacles, standing[i], i)
+                                  .max_step_to(to_time, positions, displacement));
+    return part;
+  }
+
+  std::string
+  ObstacleTerm::limit_to(const double  to_time,
+                         const Vector &positions,
+                         const Vector &displacement) const
+  {
+    for (unsigned int i = 0; i < standing.size(); ++i)
+      if (is_there(i)
+          && ContactSearch(surface, obstacles, standing[i], i)
+                     .max_step_to(to_time, positions, displacement)
+                 < 1.)
+        return "the obstacle '" + obstacles.all[i].name() + "'";
+    return PotentialTerm::limit_to(to_time, positions, displacement);
+  }
+
+  double
+  ObstacleTerm::max_step(const Vector &positions, const Vector &displacement) const
+  {
+    double part = std::numeric_limits<double>::infinity();
+    for (unsigned int i = 0; i < standing.size(); ++i)
+      if (is_there(i))
+        part = std::min(
+            part,
+            ContactSearch(surface, obstacles, standing[i], i).max_step(positions, displacement));
+    return part;
+  }
+
+  // Steps and friction
+
+  void
+  ObstacleTerm::begin_step(const State &at, const double new_step_size)
+  {
+    move_to(at.time);
+    step_size = new_step_size;
+    start     = at.positions;
+    in_step   = true;
+    follow_times(at);
+    rubbing.clear();
+    n_renewals = 0;
+    if (!have_friction)
+      return;
+    at_start = standing;
+    for (StandingObstacle &obstacle : at_start)
+      obstacle.move_to(at.time);
+  }
+
+  void
+  ObstacleTerm::follow_times(const State &at)
+  {
+    there.clear();
+    for (unsigned int i = 0; i < standing.size(); ++i)
+    {
+      const Obstacle &obstacle = obstacles.all[i];
+      there.push_back(obstacle.is_there(at.time) ? 1 : 0);
+      if (!obstacle.appears() || there[i] == 0 || has_appeared[i] != 0)
+        continue;
+      StandingObstacle now(obstacle);
+      now.move_to(at.time);
+      const Clearance room = clearance(surface, obstacles, now, i, at.positions, obstacles.width,
+                                       free_dofs->exchange());
+      if (room.is_crossed || room.least < obstacles.width)
+        throw SolverFailure("Obstacles/" + obstacle.name()
+                            + " appears at t = " + shortest_text(at.time)
+                            + " s where the body is, or nearer to it than the distance from which "
+                              "it pushes. Change its From, or where it is then.");
+      has_appeared[i] = 1;
+    }
+  }
+
+  std::vector<Rubbing>
+  ObstacleTerm::rubbing_at(const Vector &positions) const
+  {
+    std::vector<Rubbing> result;
+    for (const Contact &contact : contacts(positions))
+    {
+      const Obstacle &obstacle = obstacles.all[contact.obstacle];
+      const Gap      &gap      = contact.gap;
+      if (obstacle.friction() == 0. || !(gap.distance > 0.) || gap.stiffness == 0.)
+        continue;
+      Rubbing at{ contact.obstacle,
+                  contact.pair.key(),
+                  gap,
+                  -Barrier{ gap.stiffness, gap.width }.slope(gap.distance),
+                  obstacle.friction(),
+                  standing[contact.obstacle].pose.to_own(contact.of_obstacle),
+                  {},
+                  contact.at.nearest.b };
+      if (obstacle.deforms())
+      {
+        const ObstacleShape &shape = obstacle.shape();
+        const unsigned int   part  = contact.pair.of_obstacle;
+        if (contact.pair.kind == PairKind::node_triangle)
+          at.vertices = shape.triangles[part];
+        else if (contact.pair.kind == PairKind::edge_edge)
+          at.vertices = { { shape.edges[part][0], shape.edges[part][1], 0 } };
+        else
+          at.vertices = { { shape.points[part], 0, 0 } };
+      }
+      result.push_back(at);
+    }
+    std::sort(result.begin(), result.end(),
+              [](const Rubbing &a, const Rubbing &b)
+              { return std::tie(a.obstacle, a.key) < std::tie(b.obstacle, b.key); });
+    return result;
+  }
+
+  namespace
+  {
+    /// The greatest force, and the greatest difference to a sorted list of earlier ones.
+    std::pair<double, double>
+    force_and_change(const std::vector<Rubbing> &now, const std::vector<Rubbing> &before)
+    {
+      double     greatest = 0., change = 0.;
+      auto       old        = before.begin();
+      const auto is_earlier = [](const Rubbing &a, const Rubbing &b)
+      { return std::tie(a.obstacle, a.key) < std::tie(b.obstacle, b.key); };
+      for (const Rubbing &at : now)
+      {
+        for (; old != before.end() && is_earlier(*old, at); ++old)
+          change = std::max(change, old->force);
+        const bool is_old = old != before.end() && !is_earlier(at, *old);
+        greatest          = std::max(greatest, at.force);
+        change            = std::max(change, std::abs(at.force - (is_old ? old->force : 0.)));
+        if (is_old)
+          ++old;
+      }
+      for (; old != before.end(); ++old)
+        change = std::max(change, old->force);
+      return { greatest, change };
+    }
+  } // namespace
+
+  TermChange
+  ObstacleTerm::renew(const TermPoint &at)
+  {
+    constexpr unsigned int max_renewals = 20;
+    if (!have_friction || !in_step || n_renewals > max_renewals)
+      return TermChange::none;
+    std::vector<Rubbing> fresh            = rubbing_at(at.positions);
+    const auto [own_greatest, own_change] = force_and_change(fresh, rubbing);
+    const double greatest                 = free_dofs->exchange().max(own_greatest);
+    const double change                   = free_dofs->exchange().max(own_change);
+    if (change <= obstacles.lag_tolerance * greatest)
+      return TermChange::none;
+    ++n_renewals;
+    rubbing = std::move(fresh);
+    return TermChange::values;
+  }
+
+  SpaceVector3
+  ObstacleTerm::slip(const Rubbing &at, const Vector &positions) const
+  {
+    const StandingObstacle &now = standing[at.obstacle], &then = at_start[at.obstacle];
+    SpaceVector3            own_then = at.own_place;
+    if (now.obstacle->deforms())
+      for (unsigned int k = 0; k < 3; ++k)
+        own_then += at.shares[k] * (then.vertices[at.vertices[k]] - now.vertices[at.vertices[k]]);
+    SpaceVector3 u = then.pose.to_space(own_then) - now.pose.to_space(at.own_place);
+    for (unsigned int i = 0; i < at.gap.n_nodes; ++i)
+      u += at.gap.coefficients[i]
+           * (at_node(positions, at.gap.nodes[i]) - at_node(start, at.gap.nodes[i]));
+    return u - (u * at.gap.normal) * at.gap.normal;
+  }
+
+  std::optional<double>
+  ObstacleTerm::dissipation(const State &end) const
+  {
+    if (!have_friction)
+      return {};
+    double heat = 0.;
+    for (const Rubbing &at : rubbing)
+      heat += slip_energy(at).heat(slip(at, end.positions).norm());
+    return heat;
+  }
+
+  template <typename Visit>
+  void
+  ObstacleTerm::visit_forces(const Vector &positions, const Visit &visit) const
+  {
+    for (const Contact &contact : contacts(positions))
+    {
+      if (!(contact.gap.distance > 0.))
+        continue;
+      const ContactGradient gradient = gradient_of(contact);
+      for (unsigned int i = 0; i < contact.gap.n_nodes; ++i)
+        visit(contact.obstacle, contact.gap.nodes[i], -gradient[i]);
+    }
+    for (const Rubbing &at : rubbing)
+    {
+      const SpaceVector3 u     = slip(at, positions);
+      const SpaceVector3 force = -slip_energy(at).force_by_slip(u.norm()) * u;
+      for (unsigned int i = 0; i < at.gap.n_nodes; ++i)
+        visit(at.obstacle, at.gap.nodes[i], at.gap.coefficients[i] * force);
+    }
+  }
+
+  void
+  ObstacleTerm::end_step(const State &end)
+  {
+    barrier_energy = 0.;
+    n_pairs        = 0.;
+    least_gap      = obstacles.width;
+    for (Sums &sums : sums_of)
+      sums.force = sums.torque = SpaceVector3();
+    for (const Contact &contact : contacts(end.positions))
+    {
+      barrier_energy += energy_of(contact);
+      least_gap = std::min(least_gap, contact.gap.distance);
+      n_pairs += 1.;
+    }
+    for (const Rubbing &at : rubbing)
+      sums_of[at.obstacle].heat += slip_energy(at).heat(slip(at, end.positions).norm());
+    visit_forces(
+        end.positions,
+        [&](const unsigned int obstacle, const unsigned int node, const SpaceVector3 &force)
+        {
+          const SpaceVector3 x    = at_node(end.positions, node);
+          Sums              &sums = sums_of[obstacle];
+          sums.force += force;
+          sums.torque += dealii::cross_product_3d(x - standing[obstacle].pose.place, force);
+          sums.work += force * (x - at_node(start, node));
+        });
+  }
+
+  void
+  ObstacleTerm::leave_step()
+  {
+    in_step = false;
+    rubbing.clear();
+    there.clear();
+  }
+
+  // The potential
+
+  void
+  ObstacleTerm::add(const TermPoint &at, ElasticSums &sums)
+  {
+    const auto add_force = [&](const unsigned int node, const SpaceVector3 &gradient)
+    {
+      add_to(sums->gradient, node, gradient);
+      sums->force_scale[node] += gradient.norm();
+    };
+    for (const Contact &contact : contacts(at.positions))
+    {
+      sums->energy += energy_of(contact);
+      if (!(contact.gap.distance > 0.))
+        continue; // an infinite energy has no force
+      const ContactGradient gradient = gradient_of(contact);
+      for (unsigned int i = 0; i < contact.gap.n_nodes; ++i)
+        add_force(contact.gap.nodes[i], gradient[i]);
+    }
+    for (const Rubbing &rub : rubbing)
+    {
+      const SpaceVector3 u      = slip(rub, at.positions);
+      const SlipEnergy   energy = slip_energy(rub);
+      sums->energy += energy.value(u.norm());
+      const SpaceVector3 force = energy.force_by_slip(u.norm()) * u;
+      for (unsigned int i = 0; i < rub.gap.n_nodes; ++i)
+        add_force(rub.gap.nodes[i], rub.gap.coefficients[i] * force);
+    }
+  }
+
+  template <typename Visit>
+  void
+  ObstacleTerm::visit_blocks(const Vector &positions, const Tangent kind, const Visit &visit) const
+  {
+    for (const Contact &contact : contacts(positions))
+      if (contact.gap.distance > 0.)
+        visit(contact.gap, hessian_of(contact, kind));
+    for (const Rubbing &at : rubbing)
+    {
+      const auto     curvature = slip_energy(at).curvature(slip(at, positions), at.gap.normal);
+      ContactHessian blocks;
+      for (unsigned int i = 0; i < at.gap.n_nodes; ++i)
+        for (unsigned int j = 0; j < at.gap.n_nodes; ++j)
+          blocks[i][j] = at.gap.coefficients[i] * at.gap.coefficients[j] * curvature;
+      visit(at.gap, blocks);
+    }
+  }
+
+  void
+  ObstacleTerm::add_tangent(const TermPoint     &at,
+                            const Tangent        kind,
+                            std::vector<double> &values,
+                            std::vector<double> & /*columns*/)
+  {
+    visit_blocks(at.positions, kind,
+                 [&](const Gap &gap, const ContactHessian &blocks)
+                 {
+                   for (unsigned int i = 0; i < gap.n_nodes; ++i)
+                     for (unsigned int j = 0; j < gap.n_nodes; ++j)
+                       for (unsigned int a = 0; a < 3; ++a)
+                         for (unsigned int b = 0; b < 3; ++b)
+                         {
+                           const int row    = free_dofs->free_index(3 * gap.nodes[i] + a);
+                           const int column = free_dofs->free_index(3 * gap.nodes[j] + b);
+                           if (row != FreeDofs::held && column != FreeDofs::held && row >= column)
+                             values[pattern->position(row, column)] += blocks[i][j][a][b];
+                         }
+                 });
+  }
+
+  void
+  ObstacleTerm::add_response(const TermPoint &at,
+                             const Tangent    kind,
+                             const Vector    &displacement,
+                             ElasticSums     &sums)
+  {
+    visit_blocks(at.positions, kind,
+                 [&](const Gap &gap, const ContactHessian &blocks)
+                 {
+                   for (unsigned int i = 0; i < gap.n_nodes; ++i)
+                     for (unsigned int j = 0; j < gap.n_nodes; ++j)
+                       add_to(sums->gradient, gap.nodes[i],
+                              blocks[i][j] * at_node(displacement, gap.nodes[j]));
+                 });
+  }
+
+  // What is shown and remembered
+
+  std::vector<ObstacleReport>
+  ObstacleTerm::report() const
+  {
+    std::vector<ObstacleReport> result;
+    for (unsigned int i = 0; i < sums_of.size(); ++i)
+    {
+      const Sums           &own = sums_of[i];
+      std::array<double, 8> all{ { own.force[0], own.force[1], own.force[2], own.torque[0],
+                                   own.torque[1], own.torque[2], own.work, own.heat } };
+      free_dofs->exchange().sum(all.data(), all.size());
+      result.push_back({ obstacles.all[i].name(), dealii::Point<3>(all[0], all[1], all[2]),
+                         dealii::Point<3>(all[3], all[4], all[5]), all[6], all[7] });
+    }
+    return result;
+  }
+
+  void
+  ObstacleTerm::append_columns(const double /*energy*/,
+                               std::vector<std::pair<std::string, double>> &columns) const
+  {
+    const Exchange &exchange = free_dofs->exchange();
+    columns.emplace_back("energy_contact", exchange.sum(barrier_energy));
+    columns.emplace_back("least_gap", min_of_all(exchange, least_gap));
+    columns.emplace_back("contact_pairs", exchange.sum(n_pairs));
+    double heat = 0.;
+    for (const ObstacleReport &obstacle : report())
+    {
+      const std::string name = "contact_" + obstacle.name;
+      for (unsigned int c = 0; c < 3; ++c)
+        columns.emplace_back(name + "_" + "xyz"[c], obstacle.force[c]);
+      for (unsigned int c = 0; c < 3; ++c)
+        columns.emplace_back(name + "_torque_" + "xyz"[c], obstacle.torque[c]);
+      columns.emplace_back(name + "_work", obstacle.work);
+      if (have_friction)
+        columns.emplace_back(name + "_heat", obstacle.heat);
+      heat += obstacle.heat;
+    }
+    if (have_friction)
+      columns.emplace_back("heat_friction", heat);
+  }
+
+  void
+  ObstacleTerm::append_fields(const Vector &positions, std::vector<NodalField> &fields) const
+  {
+    NodalField force{ "contact_force", Vector(positions.size()) };
+    NodalField pressure{ "contact_pressure", Vector(positions.size() / 3), 1 };
+    visit_forces(positions, [&](unsigned int, const unsigned int node, const SpaceVector3 &f)
+                 { add_to(force.values, node, f); });
+    for (const Contact &contact : contacts(positions))
+      if (contact.gap.distance > 0.)
+        for (unsigned int i = 0; i < contact.gap.n_nodes; ++i)
+          pressure.values[contact.gap.nodes[i]]
+              -= Barrier{ contact.gap.stiffness, contact.gap.width }.slope(contact.gap.distance)
+                 * contact.gap.coefficients[i] / node_areas[contact.gap.nodes[i]];
+    fields.push_back(std::move(force));
+    fields.push_back(std::move(pressure));
+  }
+
+  NoGradients
+  ObstacleTerm::no_gradients() const
+  {
+    return { "of bodies that meet obstacles", "Leave Obstacles/Names empty." };
+  }
+
+  void
+  ObstacleTerm::save(boost::archive::binary_oarchive &archive) const
+  {
+    archive << has_appeared << sums_of << barrier_energy << least_gap << n_pairs;
+  }
+
+  void
+  ObstacleTerm::load(boost::archive::binary_iarchive &archive)
+  {
+    archive >> has_appeared >> sums_of >> barrier_energy >> least_gap >> n_pairs;
+  }
+
+  std::size_t
+  ObstacleTerm::memory_consumption() const
+  {
+    std::size_t bytes = surface.memory_consumption() + node_areas.size() * sizeof(double)
+                        + rubbing.size() * sizeof(Rubbing) + start.memory_consumption();
+    for (const Obstacle &obstacle : obstacles.all)
+      bytes += obstacle.memory_consumption();
+    for (const auto &widths : obstacles.start_widths)
+      bytes += widths.size() * 4 * sizeof(double);
+    return bytes;
+  }
+} // namespace Exemplar

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/run/adjoint/example_strains.h>
+#include <exemplar/run/adjoint/slope_of_motion.h>
+#include <exemplar/run/adjoint/slope_of_points.h>
+#include <exemplar/run/adjoint/slope_terms.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Mass matrix of the nodes of a cell with a mass of 1 (scalar).
+    dealii::FullMatrix<double>
+    unit_matrix(const FESpace &fe_space, const MassMatrix kind)
+    {
+      dealii::FullMatrix<double> m = fe_space.unit_mass_matrix();
+      if (kind == MassMatrix::consistent)
+        return m;
+      const NodeShares &shares = traits_of(fe_space.element()).in_cell.by(ShareRule::lumped);
+      m                        = 0.;
+      for (unsigned int a = 0; a < m.m(); ++a)
+        m(a, a) = a < 4 ? shares.of_vertex(1.) : shares.of_edge(1.);
+      return m;
+    }
+
+    /// sum_ij m_ij a_i.q_j over the nodes of a cell.
+    double
+    product(const dealii::ArrayView<const unsigned int> &nodes,
+            const dealii::FullMatrix<double>            &m,
+            const Vector                                &a,
+            const Vector                                &q)
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        for (unsigned int j = 0; j < nodes.size(); ++j)
+          for (unsigned int c = 0; c < 3; ++c)
+            sum += m(i, j) * a[3 * nodes[i] + c] * q[3 * nodes[j] + c];
+      return sum;
+    }
+
+    void
+    add_masses(const Problem    &problem,
+               const Direction  &direction,
+               const Vector     &q,
+               SlopeDerivatives &sums)
+    {
+      const FESpace &fe_space = problem.body.fe_space;
+      const auto     m        = unit_matrix(fe_space, problem.parameters.material.mass_matrix);
+      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      {
+        const double by_density
+            = fe_space.cell_volume(cell) * product(fe_space.nodes(cell), m, direction.positions, q);
+        sums.by_density[cell] += by_density;
+        add_volume(fe_space, cell, problem.body.material.density(cell) * by_density,
+                   sums.by_rest_positions);
+      }
+    }
+
+    /// The stiffness damping of a slope: the target of a point is the strain at earlier positions.
+    class DampingPart
+    {
+    public:
+      template <typename Cell, typename Number>
+      using Evaluation = DampingPoint<Cell, Number>;
+
+      /// Takes s of Eq. (22) and the earlier positions of the step.
+      DampingPart(const Problem                 &problem,
+                  const ExampleStrains          &of_examples,
+                  std::vector<WeightedPositions> history,
+                  const double                   s)
+          : problem(problem), of_examples(of_examples), fe_space(problem.body.fe_space),
+            history(std::move(history)), laws(of_examples.get_laws()),
+            by_past(this->history.size(), Vector(fe_space.n_dofs())),
+            shares(fe_space.n_points(), s), shares_of_patches(problem.body.patches.size(), s),
+            strains(fe_space.n_points(), Matrix3<double>{})
+      {
+        for_each_part(n_parts, fe_space.n_points(), problem.parameters.solver.n_threads,
+                      [this](const std::size_t, const std::size_t begin, const std::size_t end)
+                      {
+                        for (std::size_t point = begin; point < end; ++point)
+                          for (const WeightedPositions &past : this->history)
+                            look_back(point, past);
+                      });
+        if (!shares_of_patches.empty())
+          for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+            if (shares[point] == 0.)
+              shares_of_patches[problem.body.patches.of_point(point)] = 0.;
+      }
+
+      const LawsOfCells &
+      get_laws() const
+      {
+        return laws;
+      }
+
+      double
+      share(const unsigned int point) const
+      {
+        return shares[point];
+      }
+
+      double
+      share_of_patch(const unsigned int patch) const
+      {
+        return shares_of_patches[patch];
+      }
+
+      MatrixAlong
+      wish(const unsigned int point) const
+      {
+        return { strains[point], {} };
+      }
+
+      static PatchScene
+      patch_scene(const PointScene & /*scene*/, const ModelTraits & /*law*/)
+      {
+        return { 0., false, false, false };
+      }
+
+      static double
+      square_of_bound(const unsigned int /*patch*/, const unsigned int /*point*/)
+      {
+        return 0.;
+      }
+
+      /// Adds derivatives by the earlier positions.
+      void
+      add_wish(const unsigned int point,
+               const MatrixAlong &by_wish,
+               const PatchFactors * /*factors*/,
+               SlopeDerivatives & /*sums*/,
+               Matrix3<double> &by_gradients)
+      {
+        if (shares[point] == 0.)
+          return; // rotations may be ambiguous there; its patch is left out, too
+        for (std::size_t m = 0; m < history.size(); ++m)
+        {
+          const Matrix3<double> F    = fe_space.deformation_gradient(point, *history[m].positions);
+          const Matrix3<double> by_F = times(
+              history[m].weight, pulled_back(laws[fe_space.cell_of(point)], F, by_wish.value));
+          add_forces(fe_space, point, by_F, by_past[m]);
+          by_gradients = combine(1., by_gradients, 1., transpose_times(F, by_F));
+        }
+      }
+
+      void
+      add_guard_bound(const double by_bound, SlopeDerivatives &sums) const
+      {
+        add_slope_of_guard_bound(problem, of_examples, by_bound, sums);
+      }
+
+      std::vector<Vector>
+      take_by_past()
+      {
+        return std::move(by_past);
+      }
+
+    private:
+      /// Skips points that a guard held, and their patches, as StrainDamping does.
+      void
+      look_back(const unsigned int point, const WeightedPositions &past)
+      {
+        const CellLaw         law = laws[fe_space.cell_of(point)];
+        const Matrix3<double> F   = fe_space.deformation_gradient(point, *past.positions);
+        const Matrix3<double> R   = model_rotation(law, F);
+        strains[point]   = combine(1., strains[point], past.weight, model_strain(law, R, F));
+        const double p_0 = problem.examples.poses.constants().guard_bound;
+        if (traits_of(law).has_guard
+            && !(product_of_sums(symmetric_part(transpose_times(R, F))) >= p_0))
+          shares[point] = 0.;
+      }
+
+      static constexpr std::size_t n_parts = 16; ///< parts of the loop, whatever the threads
+
+      const Problem                       &problem;
+      const ExampleStrains                &of_examples;
+      const FESpace                       &fe_space;
+      const std::vector<WeightedPositions> history;
+      const LawsOfCells                   &laws;
+      std::vector<Vector>                  by_past;
+      std::vector<double>                  shares, shares_of_patches; ///< s, or 0 where left out
+      std::vector<Matrix3<double>>         strains;                   ///< sum c_m e(x_m)
+    };
+  } // namespace
+
+  void
+  add_slope_of_inertia(const Problem     &problem,
+                       const Direction   &direction,
+                       SlopeDerivatives  &sums,
+                       MotionDerivatives &of_motion)
+  {
+    const TimeIntegrator &integrator = *problem.actions.integrator;
+    const double          factor     = integrator.mass_factor();
+    const Vector          M_a        = problem.actions.mass->times(direction.positions);
+    Vector                q          = problem.state.positions;
+    q -= integrator.predicted_positions();
+    q *= factor;
+    add_masses(problem, direction, q, sums);
+    sums.by_positions.add(factor, M_a);
+    // q = gamma (gamma + a_M) (x - x_star) - gamma v_star, and v = gamma (x - x_star)
+    of_motion.by_base = M_a;
+    of_motion.by_base *= -factor;
+    of_motion.by_base_velocities = M_a;
+    of_motion.by_base_velocities *= -integrator.rate_factor();
+    of_motion.by_mass_damping = M_a * problem.state.velocities;
+  }
+
+  void
+  add_slope_of_damping(const Problem        &problem,
+                       const ExampleStrains &of_examples,
+                       const State          &start,
+                       const Direction      &direction,
+                       SlopeDerivatives     &sums,
+                       MotionDerivatives    &of_motion)
+  {
+    const TimeIntegrator &integrator = *problem.actions.integrator;
+    const auto            history    = integrator.history(start);
+    DampingPart           unit(problem, of_examples, history, integrator.rate_factor());
+    of_motion.by_stiffness_damping
+        = SlopeOfPoints<DampingPart>(problem, direction.positions, unit).slope();
+    const double s = integrator.stiffness_damping_factor();
+    if (!(s > 0.))
+      return;
+    DampingPart part(problem, of_examples, history, s);
+    SlopeOfPoints<DampingPart>(problem, direction.positions, part).add_to(sums);
+    of_motion.by_past = part.take_by_past();
+  }
+} // namespace Exemplar

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/potential/contact_clearance.h>
+#include <exemplar/run/problem/obstacle_start.h>
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    // parts of the body's diameter: what touches an obstacle is not farther outside or deeper inside
+    constexpr double outside_touch = 1e-6;
+    constexpr double inside_touch  = 1e-3;
+    // how far it is then from the body, a part of the distance from which obstacles push
+    constexpr double part_of_width = 1e-2;
+
+    std::string
+    text_of(const SpaceVector3 &x)
+    {
+      std::string text;
+      for (unsigned int c = 0; c < 3; ++c)
+        text += (c == 0 ? "(" : ", ") + short_text(x[c]);
+      return text + ")";
+    }
+
+    /// An obstacle of a scene and the body as it begins.
+    class ObstacleStart
+    {
+    public:
+      ObstacleStart(Obstacles            &obstacles,
+                    const unsigned int    number,
+                    const ContactSurface &surface,
+                    const Body           &body,
+                    const Vector         &positions)
+          : obstacles(obstacles), number(number), obstacle(obstacles.all[number]), surface(surface),
+            body(body), positions(positions), diameter(body.mesh.diameter())
+      {
+      }
+
+      /// What was done; empty: nothing.
+      std::string
+      set_back()
+      {
+        const Clearance first = look();
+        if (first.least > outside_touch * diameter && !first.is_crossed)
+          return "";
+        const double least    = part_of_width * obstacles.width;
+        const double most     = inside_touch * diameter + least;
+        const bool   is_solid = obstacle.shape().half_sizes || obstacle.shape().is_surface();
+        double       by       = least - first.least;
+        if (!is_solid && (first.is_crossed || by > most))
+          refuse(first);
+        if (is_solid)
+          by = least_set_back(first, most);
+        obstacle.set_back(by, first.outwards);
+        return fmt::format("Obstacles/{} touches the body near {} m: it is set back by {} m",
+                           obstacle.name(), text_of(first.place), short_text(by));
+      }
+
+      /// Let pairs that are near keep their distances as widths.
+      void
+      keep_widths()
+      {
+        StandingObstacle standing(obstacle);
+        standing.move_to(0.);
+        auto                                   &widths = obstacles.start_widths[number];
+        std::vector<std::pair<PairKey, double>> found;
+        ContactSearch(surface, obstacles, standing, number)
+            .visit_near(positions, obstacles.width,
+                        [&](const ContactPair &pair, const PairDistance &at)
+                        {
+                          if (at.distance < obstacles.width)
+                            found.emplace_back(pair.key(), at.distance);
+                        });
+        widths.insert(found.begin(), found.end());
+      }
+
+    private:
+      Clearance
+      look() const
+      {
+        StandingObstacle standing(obstacle);
+        standing.move_to(0.);
+        return clearance(surface, obstacles, standing, number, positions,
+                         std::max(obstacles.width, inside_touch * diameter), body.exchange());
+      }
+
+      /// The least by which a box or surface must go, found by halving. Throws UserError if that is more than `most`.
+      double
+      least_set_back(const Clearance &first, const double most)
+      {
+        constexpr unsigned int max_halvings = 40;
+        const double           least        = part_of_width * obstacles.width;
+        const auto             is_enough    = [&](const double by)
+        {
+          obstacle.set_back(by, first.outwards);
+          const Clearance now = look();
+          obstacle.set_back(-by, first.outwards);
+          return !now.is_crossed && now.least >= 0.999 * least;
+        };
+        if (first.outwards.norm() == 0. || !is_enough(most))
+          refuse(first);
+        double low = 0., high = most;
+        for (unsigned int halving = 0; halving < max_halvings && high - low > 1e-3 * least;
+             ++halving)
+        {
+          const double middle              = 0.5 * (low + high);
+          (is_enough(middle) ? high : low) = middle;
+        }
+        return high;
+      }
+
+      [[noreturn]] void
+      refuse(const Clearance &first) const
+      {
+        const std::string what = "The body begins inside of Obstacles/" + obstacle.name()
+                                 + ", near " + text_of(first.place) + " m";
+        if (first.is_crossed)
+          throw UserError(what
+                          + ". Move the obstacle (Shape), or the body (Initial/Pose), so that "
+                            "they do not meet.");
+        StandingObstacle standing(obstacle);
+        standing.move_to(0.);
+        // along the gradient of the distance there
+        SpaceVector3        way;
+        const ContactSearch search(surface, obstacles, standing, number);
+        search.visit_near(positions, 0.,
+                          [&](const ContactPair &, const PairDistance &at)
+                          {
+                            if (at.distance == first.least)
+                              way = standing.pose.rotation * at.normal;
+                          });
+        std::array<double, 3> numbers{ { way[0], way[1], way[2] } };
+        body.exchange().sum(numbers.data(), 3);
+        for (unsigned int c = 0; c < 3; ++c)
+          way[c] = numbers[c];
+        const double depth = -first.least;
+        if (way.norm() > 0.)
+          way *= 1.001 * depth / way.norm();
+        throw UserError(fmt::format(
+            "{}, {} m deep. A displacement of the body by {} m would mend it, or one of "
+            "the obstacle by the opposite.",
+            what, short_text(depth), text_of(way)));
+      }
+
+      Obstacles            &obstacles;
+      const unsigned int    number;
+      Obstacle             &obstacle;
+      const ContactSurface &surface;
+      const Body           &body;
+      const Vector         &positions;
+      const double          diameter;
+    };
+  } // namespace
+
+  void
+  check_obstacle_motions(const Obstacles &obstacles, const Body &body, const TimeAxis &axis)
+  {
+    constexpr unsigned int max_samples = 10000;
+    constexpr double       greatest    = 0.25; // of the diameter
+    for (const Obstacle &obstacle : obstacles.all)
+      for (unsigned int step = 1; step <= std::min(axis.n_steps(), max_samples); ++step)
+      {
+        const double begin = axis.time(step - 1), end = axis.time(step);
+        if (!obstacle.is_there(begin))
+          continue;
+        double     way     = (obstacle.pose(end).place - obstacle.pose(begin).place).norm();
+        const bool deforms = obstacle.deforms();
+        const auto before  = deforms ? obstacle.vertices(begin) : std::vector<SpaceVector3>();
+        const auto after   = deforms ? obstacle.vertices(end) : before;
+        for (std::size_t v = 0; v < before.size(); ++v)
+          way = std::max(way, (after[v] - before[v]).norm());
+        if (way > greatest * body.mesh.diameter())
+          throw UserError(fmt::format(
+              "Obstacles/{} goes {} m in the step to t = {} s, more than a quarter of the body's "
+              "diameter of {} m. Take smaller steps (Time/Step or Time/Increments), or a slower "
+              "{}.",
+              obstacle.name(), short_text(way), shortest_text(end),
+              short_text(body.mesh.diameter()), deforms ? "cache" : "Motion"));
+      }
+  }
+
+  void
+  suit_obstacles(Obstacles                &obstacles,
+                 const ContactSurface     &surface,
+                 const Body               &body,
+                 const Vector             &positions,
+                 std::vector<std::string> &notes)
+  {
+    for (unsigned int i = 0; i < obstacles.all.size(); ++i)
+    {
+      if (!obstacles.all[i].is_there(0.))
+        continue;
+      ObstacleStart start(obstacles, i, surface, body, positions);
+      if (const std::string done = start.set_back(); !done.empty())
+        notes.push_back(done);
+      start.keep_widths();
+    }
+  }
+} // namespace Exemplar

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/solvers/gap_energies.h>
+#include <exemplar/solvers/line_search.h>
+#include <exemplar/solvers/staged_motion.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    constexpr double       overtaken     = 0.45; ///< widths: what would end nearer is carried
+    constexpr double       carried_to    = 0.5;  ///< widths
+    constexpr double       carried_error = 0.02; ///< widths
+    constexpr unsigned int max_carries = 3; ///< in a stage, as nodes that follow are overtaken, too
+    constexpr unsigned int max_push_steps       = 200; ///< for one of these
+    constexpr unsigned int max_halvings_of_part = 10;
+    constexpr unsigned int max_stages           = 40;
+    constexpr double       min_part      = 1e-6; ///< of the way: less in one stage is no progress
+    constexpr double       greatest_turn = 5. * 3.14159265358979323846 / 180.;
+  } // namespace
+
+  bool
+  StagedMotion::moves_held(const Vector &from, const Vector &to) const
+  {
+    const FreeDofs &free_dofs = potential.get_free_dofs();
+    bool            moves     = false;
+    for (unsigned int dof = 0; dof < free_dofs.n_dofs(); ++dof)
+      moves |= free_dofs.free_index(dof) == FreeDofs::held && from[dof] != to[dof];
+    return free_dofs.exchange().any(moves);
+  }
+
+  unsigned int
+  StagedMotion::parts_of_turns(const double  start_time,
+                               const double  time,
+                               const Vector &from,
+                               const Vector &to) const
+  {
+    // the middle of an arc by the angle a is tan(a/4)/2 of its chord beside that
+    const FreeDofs &free_dofs = potential.get_free_dofs();
+    Vector          middle    = to;
+    handles.move(0.5 * (start_time + time), middle);
+    double chord = 0., beside = 0.;
+    for (unsigned int dof = 0; dof < free_dofs.n_dofs(); ++dof)
+      if (free_dofs.free_index(dof) == FreeDofs::held)
+      {
+        chord  = std::max(chord, std::abs(to[dof] - from[dof]));
+        beside = std::max(beside, std::abs(middle[dof] - 0.5 * (to[dof] + from[dof])));
+      }
+    chord  = free_dofs.exchange().max(chord);
+    beside = free_dofs.exchange().max(beside);
+    if (chord == 0.)
+      return 1;
+    const double turn = 4. * std::atan(2. * beside / chord);
+    return static_cast<unsigned int>(std::ceil(std::max(1., turn / greatest_turn)));
+  }
+
+  unsigned int
+  StagedMotion::move(const double  start_time,
+                     const Vector &from,
+                     const double  time,
+                     Vector       &to,
+                     const Follow &follow)
+  {
+    const bool moves_obstacles
+        = potential.gap_width() > 0. && potential.moves_between(start_time, time);
+    if (potential.gap_width() == 0. || (!moves_obstacles && !moves_held(from, to)))
+    {
+      keep_within_max_step(potential, from, to, displacement);
+      return 1;
+    }
+    const unsigned int n        = parts_of_turns(start_time, time, from, to);
+    unsigned int       n_stages = 0;
+    const Vector       end      = to;
+    Vector             begin    = from;
+    for (unsigned int k = 1; k <= n; ++k)
+    {
+      const auto at = [&](const unsigned int i)
+      { return i == n ? time : start_time + i * (time - start_time) / n; };
+      // what is left of the way, in equal parts
+      to = begin;
+      to.sadd(1. - 1. / (n - k + 1), 1. / (n - k + 1), end);
+      handles.move(at(k), to);
+      n_stages += move_part(at(k - 1), begin, at(k), to, follow);
+      begin = to;
+    }
+    return n_stages;
+  }
+
+  unsigned int
+  StagedMotion::move_part(const double  start_time,
+                          const Vector &from,
+                          const double  time,
+                          Vector       &to,
+                          const Follow &follow) const
+  {
+    Vector       at     = from;
+    const Vector target = to;
+    double       now    = start_time;
+    for (unsigned int stage = 1; stage <= max_stages; ++stage)
+    {
+      to = target;
+      potential.move_to(time);
+      carry(to, follow);
+      Vector way = to;
+      way -= at;
+      potential.move_to(now);
+      const double part = potential.max_step_to(time, at, way);
+      if (part >= 1.)
+      {
+        potential.move_to(time);
+        return stage;
+      }
+      if (!(part > min_part))
+        break;
+      go(part, time, way, at, now);
+    }
+    to = target;
+    to -= at;
+    refuse(now, time, at, to);
+  }
+
+  void
+  StagedMotion::go(double part, const double time, const Vector &way, Vector &at, double &now) const
+  {
+    // obstacles need not go straight on: half the part, until all gaps are open
+    const Vector from  = at;
+    const double start = now;
+    for (unsigned int halving = 0; halving < max_halvings_of_part; ++halving, part *= 0.5)
+    {
+      at = from;
+      at.add(part, way);
+      now = start + part * (time - start);
+      potential.move_to(now);
+      bool is_closed = false;
+      for (const Gap &gap : potential.gaps(at, overtaken))
+        is_closed |= gap.stiffness > 0. && !(gap.distance > 0.);
+      if (!potential.get_free_dofs().exchange().any(is_closed))
+        return;
+    }
+    refuse(start, time, from, way);
+  }
+
+  void
+  StagedMotion::carry(Vector &to, const Follow &follow) const
+  {
+    const FreeDofs &free_dofs = potential.get_free_dofs();
+    const Exchange &exchange  = free_dofs.exchange();
+    const auto      is_free   = [&](const Gap &gap)
+    {
+      bool is = false;
+      for (unsigned int i = 0; i < gap.n_nodes; ++i)
+        for (unsigned int c = 0; c < 3; ++c)
+          is |= free_dofs.free_index(3 * gap.nodes[i] + c) != FreeDofs::held;
+      return is;
+    };
+    const Vector     predicted = to;
+    std::vector<Gap> carried;
+    for (unsigned int i = 0; i < max_carries; ++i)
+    {
+      // those that were carried are in the middle of their widths by now
+      bool   is_more    = false;
+      Vector difference = to;
+      difference -= predicted;
+      for (const Gap &gap : potential.gaps(to, overtaken))
+        if (gap.stiffness > 0. && is_free(gap))
+        {
+          carried.push_back(gap);
+          carried.back().distance -= GapEnergies({ gap }).changes(difference)[0];
+          is_more = true;
+        }
+      if (!exchange.any(is_more))
+        return;
+      to = predicted;
+      to += push(GapEnergies(carried), follow);
+    }
+  }
+
+  Vector
+  StagedMotion::push(const GapEnergies &gaps, const Follow &follow) const
+  {
+    // U^T H U forces = missing, by conjugate gradients; nodes that several gaps push may make it singular
+    const FreeDofs &free_dofs = potential.get_free_dofs();
+    const Exchange &exchange  = free_dofs.exchange();
+    const auto      product   = [&](const std::vector<double> &a, const std::vector<double> &b)
+    { return exchange.sum(dot(a, b)); };
+    std::vector<double> missing(gaps.n_rows()), moved(free_dofs.size());
+    double              error         = 0.;
+    const auto          measure_error = [&]
+    {
+      error = 0.;
+      for (std::size_t r = 0; r < missing.size(); ++r)
+        error = std::max(error, std::abs(missing[r]) / gaps.gap_of(r).width);
+      error = exchange.max(error);
+    };
+    for (std::size_t r = 0; r < missing.size(); ++r)
+      missing[r] = carried_to * gaps.gap_of(r).width - gaps.gap_of(r).distance;
+    measure_error();
+    std::vector<double> forces  = missing;
+    double              squared = product(missing, missing);
+    for (unsigned int i = 0; i < max_push_steps && error > carried_error; ++i)
+    {
+      Vector field(free_dofs.n_dofs());
+      gaps.add_forces(forces, field);
+      exchange.assemble(field.begin(), 3);
+      std::vector<double> response;
+      free_dofs.gather(field, response);
+      follow(response);
+      field = 0.;
+      free_dofs.add(1., response, field);
+      const std::vector<double> image  = gaps.changes(field);
+      const double              length = squared / product(forces, image);
+      if (!(length > 0.) || !std::isfinite(length))
+        break;
+      add(missing, -length, image);
+      add(moved, length, response);
+      measure_error();
+      const double next = product(missing, missing), ratio = next / squared;
+      squared = next;
+      for (std::size_t r = 0; r < forces.size(); ++r)
+        forces[r] = missing[r] + ratio * forces[r];
+    }
+    Vector displacement(free_dofs.n_dofs());
+    free_dofs.add(1., moved, displacement);
+    return displacement;
+  }
+
+  void
+  StagedMotion::refuse(const double  now,
+                       const double  time,
+                       const Vector &from,
+                       const Vector &way) const
+  {
+    std::string held = "the body";
+    for (unsigned int h = 0; h < handles.size(); ++h)
+    {
+      Vector of_handle(way.size());
+      for (const unsigned int node : handles.nodes(h))
+        for (unsigned int c = 0; c < 3; ++c)
+          of_handle[3 * node + c] = way[3 * node + c];
+      if (potential.max_step_to(time, from, of_handle) < min_part)
+      {
+        held = "handle '" + handles.name(h) + "'";
+        break;
+      }
+    }
+    throw SolverFailure(fmt::format(
+        "At t = {:.6g} s {} and {} meet, and nothing gives way. Move the one or the other another "
+        "way, or let go before.",
+        now, held, potential.limit_to(time, from, way)));
+  }
+} // namespace Exemplar

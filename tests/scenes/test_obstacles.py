@@ -1,0 +1,255 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bodies that meet obstacles: closed forms, an implementation of its own, what may not be passed, and what is refused."""
+
+import unittest
+from math import sqrt
+
+import numpy as np
+from bad_inputs import BadInputTest
+from contact_reference import Reference
+from exemplar_runner import SceneTest, nodes_of, prm, read_csv, read_msh, read_summary, read_vtu, results
+
+G = 9.81
+BAR = {
+    "Scene": "dynamic",
+    "Mesh/Generator": "box",
+    "Mesh/Box size": "1, 0.2, 0.2",
+    "Mesh/Box cells": "6, 2, 2",
+    "Material/Young's modulus": "1e5",
+    "Material/Poisson's ratio": "0.3",
+    "Material/Density": "1000",
+    "Loads/Gravity": f"0, 0, {-G}",
+    "Obstacles/Names": "floor",
+    "Obstacles/floor/Shape": "plane 0 0 -0.2  0 0 1",
+    "Time/Step": "0.01",
+    "Time/End": "0.5",
+    "Solver/Maximum iterations": "400",
+    "Output/Every": "0",
+}
+CUBE = {**BAR, "Mesh/Box size": "0.1, 0.1, 0.1", "Mesh/Box cells": "2, 2, 2", "Material/Young's modulus": "1e7",
+        "Obstacles/floor/Shape": "plane 0 0 -0.05 0 0 1"}
+WEIGHT = 1000 * 0.04 * G
+SHAPES = {
+    "plane": "plane 0 0 -0.2  0.2 0 1",
+    "sphere": "sphere 0.4 0.02 -0.8 0.6",
+    "capsule": "capsule -1 0.1 -0.5  1.5 0.2 -0.6  0.3",
+    "along": "capsule -1 0 -0.5  1.5 0 -0.5  0.3",
+    "box": "box 0.3 -1 -1  1 1 -0.2",
+    "beam": "box 0.45 -1 -1  0.55 1 -0.2",
+    "inside": "inside box -1 -1 -0.2  3 1 3",
+    "surface": "surface tent.obj",
+    "sheet": "surface sheet.obj",
+}
+TENT = "v -2 -2 -1\nv 2 -2 -1\nv 2 2 -1\nv -2 2 -1\nv 0.43 -1.5 -0.2\nv 0.43 1.5 -0.2\n" \
+       "f 4 3 2 1\nf 1 2 5\nf 3 4 6\nf 2 3 6 5\nf 4 1 5 6\n"
+SHEET = "v -2 -2 -0.2\nv 2 -2 -0.25\nv 2 2 -0.2\nv -2 2 -0.3\nf 1 2 3\nf 1 3 4\n"
+
+
+def worked(rows, name="floor"):
+    """By the contact forces in each step, less what the barrier's energy falls by."""
+    return [after[f"contact_{name}_work"] - before[f"contact_{name}_work"] + after["energy_contact"] - before["energy_contact"]
+            for before, after in zip(rows, rows[1:])]
+
+
+class ObstacleTest(SceneTest):
+    def setUp(self):
+        super().setUp()
+        self.write("tent.obj", TENT)
+        self.write("sheet.obj", SHEET)
+
+
+class Obstacles(ObstacleTest):
+    def test_a_body_that_has_come_to_rest_is_borne_with_its_weight(self):
+        rows = read_csv(self.solve({**BAR, "Time/Mass damping": "20", "Time/End": "4", "Solver/Step tolerance": "1e-9"}))
+        self.assertAlmostEqual(rows[-1]["contact_floor_z"] / WEIGHT, 1, delta=1e-6)
+        self.assertLess(abs(rows[-1]["contact_floor_x"]), 1e-6 * WEIGHT)
+        # about the plane's point, below the bar's end: gravity pulls at x = .5 m
+        self.assertAlmostEqual(rows[-1]["contact_floor_torque_y"] / WEIGHT, -0.5, delta=1e-5)
+
+    def test_forces_work_no_more_than_their_barrier_falls(self):
+        for name in ("plane", "inside"):
+            with self.subTest(name):
+                rows = read_csv(self.solve({**BAR, "Obstacles/floor/Shape": SHAPES[name], "Initial/Velocity": "0; 1; -5"}))
+                most = max(row["energy_kinetic"] for row in rows)
+                self.assertLess(max(row["least_gap"] for row in rows[5:]), 0.0052)
+                self.assertLess(max(worked(rows)), 1e-12 * most)
+
+    def test_every_shape_is_met_and_none_is_passed(self):
+        for name, shape in SHAPES.items():
+            for speed, young in ((3, "1e5"), (30, "1e6"), (10, "1e4")):
+                with self.subTest(name, speed=speed):
+                    run = self.attempt({**BAR, "Obstacles/floor/Shape": shape, "Initial/Velocity": f"0; 0; {-speed}",
+                                        "Material/Young's modulus": young, "Time/End": "0.2"})
+                    self.assertEqual(run.status, 0, run.stderr)  # cells may be inverted by such impacts
+                    rows = read_csv(run.output)
+                    self.assertGreater(min(row["least_gap"] for row in rows), 0)
+                    self.assertGreater(max(row["contact_floor_z"] for row in rows), WEIGHT)
+                    self.assertGreater(max(row["contact_pairs"] for row in rows), 0)
+
+    def test_an_edge_between_nodes_bears(self):
+        # a beam on its edge under the middle of long cells: nodes alone would let it in by half a cell
+        output = self.solve({**BAR, "Mesh/Box cells": "2, 1, 1", "Obstacles/floor/Shape": SHAPES["beam"].replace("0.45", "0.2")
+                             .replace("0.55", "0.3"), "Time/End": "0.3"})
+        x = nodes_of(output / "final.msh")
+        lower = sorted(tuple(x[n]) for n in x)
+        self.assertGreater(min(row["least_gap"] for row in read_csv(output)), 0)
+        self.assertTrue(lower)
+
+    def test_what_touches_at_the_start_stands(self):
+        output = self.attempt({**BAR, "Obstacles/floor/Shape": "plane 0 0 -0.1 0 0 1", "Time/End": "0.05"})
+        self.assertEqual((output.status, output.stderr), (0, ""))
+        self.assertIn("Obstacles/floor touches the body near (", output.stdout)
+        self.assertIn("it is set back by", output.stdout)
+        rows = read_csv(output.output)
+        self.assertLess(max(row["energy_kinetic"] for row in rows), 0.5)
+
+    def test_frames_show_forces_and_pressures(self):
+        output = self.solve({**BAR, "Time/End": "0.16", "Output/Every": "16"})
+        arrays = read_vtu(output / "frame_0016.vtu")[0]
+        force = np.reshape(arrays["PointData", "contact_force"], (-1, 3))
+        pressure = np.array(arrays["PointData", "contact_pressure"])
+        row = read_csv(output)[-1]
+        self.assertGreater(row["contact_floor_z"], 1)
+        self.assertAlmostEqual(force.sum(0)[2] / row["contact_floor_z"], 1, places=9)
+        self.assertEqual(((force ** 2).sum(1) > 0).tolist(), (pressure > 0).tolist())
+        self.assertIn("obstacles", read_summary(output)["used"])
+
+    def test_others_know_nothing_of_obstacles(self):
+        output = self.solve({key: value for key, value in BAR.items() if not key.startswith("Obstacles")})
+        self.assertIn("obstacles", read_summary(output)["left_out"])
+        self.assertNotIn("energy_contact", read_csv(output)[0])
+
+
+class Frictional(ObstacleTest):
+    def slope(self, tangent, friction, **more):
+        """A cube on a slope, which gravity makes, after some steps."""
+        g = np.array([tangent, 0, -1]) * G / sqrt(1 + tangent ** 2)
+        return read_csv(self.solve({**CUBE, "Obstacles/floor/Friction": friction, "Loads/Gravity": ", ".join(f"{x:.17g}" for x in g),
+                                    "Obstacles/Lag tolerance": "1e-8", "Solver/Step tolerance": "1e-9", **more}))
+
+    def test_on_a_slope_it_creeps_or_slides(self):
+        mass = 1.0
+        slip_speed = 1e-3 * 0.1 * sqrt(3)
+        for part in (0.9, 0.995):
+            rows = self.slope(part * 0.5, "0.5", **{"Time/End": "1", "Time/Step": "0.02"})
+            creep = rows[-1]["momentum_x"] / mass
+            self.assertAlmostEqual(creep / slip_speed, 1 - sqrt(1 - part), delta=0.01)
+        rows = self.slope(0.5 * 1.005, "0.5", **{"Time/End": "2", "Time/Step": "0.02"})
+        expected = G * (0.5 * 1.005 - 0.5) / sqrt(1 + (0.5 * 1.005) ** 2)
+        speeds = [row["momentum_x"] / mass for row in rows]
+        self.assertAlmostEqual((speeds[-1] - speeds[-26]) / (25 * 0.02) / expected, 1, delta=0.005)
+
+    def test_a_cube_that_slides_stops_where_it_should(self):
+        rows = read_csv(self.solve({**CUBE, "Obstacles/floor/Friction": "0.3", "Initial/Velocity": "10; 0; 0", "Time/End": "3.6",
+                                    "Time/Step": "0.02"}))
+        way = 0.02 * sum(row["momentum_x"] for row in rows[1:])
+        expected = 100 / (2 * 0.3 * G) - 0.02 * 10 / 2
+        self.assertAlmostEqual(way / expected, 1, delta=0.01)
+        heats = [row["heat_friction"] for row in rows]
+        self.assertTrue(all(a <= b for a, b in zip(heats, heats[1:])))
+        self.assertAlmostEqual(rows[-1]["energy_dissipated"] / heats[-1], 1, places=12)
+
+    def test_an_oblique_impact_has_the_ratio_of_friction(self):
+        rows = read_csv(self.solve({**CUBE, "Obstacles/floor/Friction": "0.2", "Obstacles/floor/Shape": "plane 0 0 -0.06 0 0 1",
+                                    "Initial/Velocity": "5; 0; -2", "Time/Step": "0.001", "Time/End": "0.03", "Loads/Gravity": None,
+                                    "Obstacles/Lag tolerance": "1e-6"}))
+        tangential = rows[0]["momentum_x"] - rows[-1]["momentum_x"]
+        normal = rows[-1]["momentum_z"] - rows[0]["momentum_z"]
+        self.assertGreater(normal, 2)
+        self.assertAlmostEqual(tangential / normal, 0.2, delta=0.002)
+
+
+class Reproducible(ObstacleTest):
+    SCENE = {**BAR, "Obstacles/floor/Friction": "0.5", "Obstacles/floor/Shape": SHAPES["sphere"], "Initial/Velocity": "1; 0; -2",
+             "Time/End": "0.3", "Output/Every": "10"}
+
+    def test_the_number_of_threads_changes_nothing(self):
+        one = results(self.solve(self.SCENE, "--threads", "1", output="one"))
+        self.assertEqual(one, results(self.solve(self.SCENE, "--threads", "3", output="three")))
+
+    def test_a_run_goes_on_in_contact_as_if_it_had_not_stopped(self):
+        whole = self.solve(self.SCENE, output="whole")
+        self.solve({**self.SCENE, "Time/End": "0.15"}, output="parts")
+        run = self.call("scene.prm", "--output", "parts", "--resume", "--set", "Time/End=0.3")
+        self.assertEqual(run.status, 0, run.stderr)
+        parts = results(self.directory / "parts")
+        for name, content in results(whole).items():
+            if name != "frame_0015.vtu":
+                self.assertEqual(parts[name], content, name)
+
+
+class AgainstAReference(ObstacleTest):
+    KEYS = {**BAR, "Mesh/Box size": "0.4, 0.2, 0.2", "Mesh/Box cells": "2, 1, 1", "Solver/Tolerance": "1e-12",
+            "Solver/Step tolerance": "1e-12", "Model/Dilatation": "cells", "Initial/Velocity": "0; 0; -2", "Time/End": "0.2",
+            "Obstacles/Distance": "0.005", "Material/Mass matrix": "consistent"}
+
+    def check(self, shape, contact_of):
+        output = self.solve({**self.KEYS, "Obstacles/floor/Shape": shape})
+        mesh = read_msh(self.solve({**self.KEYS, "Obstacles/Names": None, "Obstacles/floor/Shape": None, "Obstacles/Distance": None,
+                                    "Initial/Velocity": None, "Loads/Gravity": None, "Time/End": "0.01"}, output="rest")
+                        / "final.msh")
+        numbers = sorted(mesh.nodes)
+        rest = np.round([mesh.nodes[n] for n in numbers], 12)
+        cells = np.array([element[-4:] for element in mesh.elements if element[1] == 4]) - 1
+        volumes = np.linalg.det(rest[cells][:, 1:] - rest[cells][:, :1])
+        cells[volumes < 0] = cells[volumes < 0][:, [0, 2, 1, 3]]
+        body = Reference(rest, cells, 1e5, 0.3, 1000, (0, 0, -G), 0.005)
+        x, v = rest, np.tile((0.0, 0.0, -2.0), (len(rest), 1))
+        contact = contact_of(body)
+        for _ in range(20):
+            x, v = body.step(x, v, 0.01, contact)
+        end = nodes_of(output / "final.msh")
+        error = max(np.abs(np.subtract(end[n], x[i])).max() for i, n in enumerate(numbers))
+        print(f"{shape}: greatest difference to the reference {error:.1e} m")
+        self.assertGreater(max(row["contact_floor_z"] for row in read_csv(output)), 10)
+        self.assertLess(error, 1e-8)
+
+    def test_a_half_space(self):
+        self.check("plane 0 0 -0.13  0.1 0.2 1", lambda body: body.plane((0, 0, -0.13), (0.1, 0.2, 1)))
+
+    def test_a_sphere(self):
+        self.check("sphere 0.15 0.02 -0.6 0.45", lambda body: body.sphere(np.array((0.15, 0.02, -0.6)), 0.45))
+
+
+class Refused(BadInputTest):
+    CASES = (
+        ({"Obstacles/floor/Shape": None}, "Obstacles/floor/Shape is not set. Allowed: plane x y z nx ny nz"),
+        ({"Obstacles/floor/Shape": "plane 0 0 1"}, "'plane' takes 6 numbers"),
+        ({"Obstacles/floor/Shape": "plane 0 0 1 0 0 0"}, "its normal has no length"),
+        ({"Obstacles/floor/Shape": "cone 0 0 1 0 0 0"}, "Allowed: plane"),
+        ({"Obstacles/floor/Shape": "sphere 0 0 -2 -1"}, "radius must be positive"),
+        ({"Obstacles/floor/Shape": "box 0 0 0 1 1 -1"}, "greater than the first one in z"),
+        ({"Obstacles/floor/Shape": "plane 0 0 0 0 0 1"}, "m deep. A displacement of the body by (0, 0, 0.1"),
+        ({"Obstacles/floor/Shape": "box -5 -5 -5 5 5 5"}, "The body begins inside of Obstacles/floor"),
+        ({"Obstacles/floor/Shape": "surface nothing.obj"}, "nothing.obj"),
+        ({"Obstacles/floor/Shape": "surface across.obj"}, "The body begins inside of Obstacles/floor"),
+        ({"Obstacles/floor/Shape": "surface crossing.obj"}, "intersects itself near"),
+        ({"Obstacles/floor/Friction": "-0.1"}, "Obstacles/floor/Friction = -0.1 is not allowed"),
+        ({"Obstacles/Names": "floor, floor"}, "lists 'floor' twice"),
+        ({"Obstacles/Distance": "1"}, "above a tenth of the body's diameter"),
+        ({"Obstacles/Distance": "1e-9"}, "below a millionth"),
+        ({"Obstacles/Distance": "near"}, "Allowed: auto, or a positive number"),
+        ({"Obstacles/floor/Follow cache": "rig.mdd"}, "is no surface"),
+        ({"Obstacles/floor/Motion": "10*t; 0"}, "Obstacles/floor/Motion"),
+        ({"Obstacles/floor/Motion": "0; 0; 100*t"}, "more than a quarter of the body's diameter"),
+        ({"Obstacles/floor/Until": "-1"}, "the obstacle would never be there"),
+        ({"Model/Gradient": "frozen"}, "nothing keeps it out"),
+        ({"Solver/Method": "fixed point"}, "nothing keeps it out"),
+        ({"Output/Space error": "true"}, "Output/Space error"),
+        ({"Loads/Balanced": "true"}, "Loads/Balanced"),
+        ({"Scene": "interpolation", "Loads/Gravity": None, "Time/Step": None, "Time/End": None,
+          "Examples/Pose functions": "x; y; 2*z"}, "an interpolation follows"),
+    )
+
+    def test_every_mistake_is_named(self):
+        self.write("across.obj", SHEET.replace("-0.2\n", "0\n").replace("-0.25", "0").replace("-0.3", "0"))
+        self.write("crossing.obj", SHEET + "v 0.3 0.2 -5\nv 0.4 0.2 5\nv 0.3 0.4 -5\nf 5 6 7\n")
+        for changes, expected in self.CASES:
+            with self.subTest(expected):
+                self.write("scene.prm", prm({**BAR, **changes}))
+                before = self.tree()
+                self.check(self.call("scene.prm", "--output", "out"), (expected,), before)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/obstacles/box_tree.h>
+#include <exemplar/obstacles/closest_features.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+
+namespace Exemplar::Testing
+{
+  namespace
+  {
+    SpaceVector3
+    vector(const double x, const double y, const double z)
+    {
+      SpaceVector3 result;
+      result[0] = x;
+      result[1] = y;
+      result[2] = z;
+      return result;
+    }
+
+    /// Random places; flat ones are nearly in a plane, on a line or in a point.
+    class Places
+    {
+    public:
+      SpaceVector3
+      operator()()
+      {
+        const double flat = std::pow(10., -uniform(generator) * 4.);
+        return vector(normal(generator), normal(generator), flat * normal(generator));
+      }
+
+    private:
+      std::mt19937                           generator{ 5 };
+      std::normal_distribution<double>       normal;
+      std::uniform_real_distribution<double> uniform{ 0., 1. };
+    };
+
+    /// The least of a convex function on [0, 1] by thirds.
+    template <typename Function>
+    double
+    least(const Function &f)
+    {
+      double low = 0., high = 1.;
+      for (unsigned int i = 0; i < 100; ++i)
+      {
+        const double a = low + (high - low) / 3., b = high - (high - low) / 3.;
+        (f(a) < f(b) ? high : low) = f(a) < f(b) ? b : a;
+      }
+      return f(0.5 * (low + high));
+    }
+
+    void
+    expect_sums(const Nearest &at)
+    {
+      EXPECT_NEAR(at.a[0] + at.a[1] + at.a[2], 1., 1e-12);
+      EXPECT_NEAR(at.b[0] + at.b[1] + at.b[2], 1., 1e-12);
+      for (const double share : { at.a[0], at.a[1], at.a[2], at.b[0], at.b[1] })
+        EXPECT_GE(share, -1e-15);
+    }
+  } // namespace
+
+  TEST(ClosestFeatures, TriangleAndPointAreThoseOfASearch)
+  {
+    Places place;
+    for (unsigned int n = 0; n < 200; ++n)
+    {
+      const std::array<SpaceVector3, 3> x{ { place(), place(), place() } };
+      const SpaceVector3                p        = place();
+      const Nearest                     at       = nearest(x, p);
+      const double                      expected = least(
+          [&](const double s)
+          {
+            return least([&](const double t)
+                         { return (x[0] + s * (x[1] - x[0] + t * (x[2] - x[1])) - p).norm(); });
+          });
+      EXPECT_NEAR(at.way.norm(), expected, 1e-7) << n;
+      expect_sums(at);
+      EXPECT_NEAR((at.a[0] * x[0] + at.a[1] * x[1] + at.a[2] * x[2] - p - at.way).norm(), 0.,
+                  1e-12);
+    }
+  }
+
+  TEST(ClosestFeatures, EdgesAreThoseOfASearch)
+  {
+    Places place;
+    for (unsigned int n = 0; n < 200; ++n)
+    {
+      std::array<SpaceVector3, 2> x{ { place(), place() } }, q{ { place(), place() } };
+      if (n % 5 == 0) // parallel
+        q[1] = q[0] + (n % 2 == 0 ? 0.7 : -2.) * (x[1] - x[0]);
+      const Nearest at       = nearest(x, q);
+      const double  expected = least(
+          [&](const double s)
+          {
+            return least([&](const double t)
+                         { return (x[0] + s * (x[1] - x[0]) - q[0] - t * (q[1] - q[0])).norm(); });
+          });
+      EXPECT_NEAR(at.way.norm(), expected, 1e-7) << n;
+      expect_sums(at);
+    }
+  }
+
+  TEST(ClosestFeatures, FlatTrianglesAreTheirEdges)
+  {
+    const SpaceVector3 o;
+    const Nearest      at
+        = nearest({ { o, vector(1., 0., 0.), vector(3., 0., 0.) } }, vector(2., 1., 0.));
+    EXPECT_DOUBLE_EQ(at.way.norm(), 1.);
+    EXPECT_DOUBLE_EQ(nearest({ { o, o, o } }, vector(0., 0., 2.)).way.norm(), 2.);
+  }
+
+  TEST(ClosestFeatures, EdgesPassThroughTrianglesOrDoNot)
+  {
+    const std::array<SpaceVector3, 3> x{ { vector(0., 0., 0.), vector(1., 0., 0.),
+                                           vector(0., 1., 0.) } };
+    EXPECT_TRUE(passes_through({ { vector(.2, .2, -1.), vector(.3, .3, 1.) } }, x));
+    EXPECT_TRUE(passes_through({ { vector(.2, .2, 1.), vector(.3, .3, -1.) } }, x));
+    EXPECT_FALSE(passes_through({ { vector(.2, .2, .1), vector(.3, .3, 1.) } }, x));
+    EXPECT_FALSE(passes_through({ { vector(.8, .8, -1.), vector(.8, .8, 1.) } }, x));
+  }
+
+  TEST(BoxTree, FindsWhatASearchFinds)
+  {
+    Places               place;
+    std::vector<AxisBox> boxes(300);
+    for (AxisBox &box : boxes)
+    {
+      const SpaceVector3 middle = place();
+      box.add(middle);
+      box.add(middle + 0.2 * place());
+    }
+    BoxTree tree(boxes);
+    for (unsigned int round = 0; round < 2; ++round)
+    {
+      for (unsigned int n = 0; n < 100; ++n)
+      {
+        AxisBox asked;
+        asked.add(place());
+        asked = asked.widened(0.3);
+        std::set<unsigned int> found, expected;
+        tree.visit(asked, [&](const unsigned int i) { EXPECT_TRUE(found.insert(i).second); });
+        for (unsigned int i = 0; i < boxes.size(); ++i)
+          if (boxes[i].meets(asked))
+            expected.insert(i);
+        EXPECT_EQ(found, expected);
+      }
+      for (AxisBox &box : boxes)
+        box = box.widened(0.1);
+      tree.move(boxes);
+    }
+  }
+} // namespace Exemplar::Testing

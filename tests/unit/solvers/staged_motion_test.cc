@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/solvers/staged_motion.h>
+
+#include "expect_contains.h"
+#include "scene.h"
+#include "wall.h"
+
+#include <gtest/gtest.h>
+
+namespace Exemplar::Testing
+{
+  namespace
+  {
+    constexpr double width = 2e-3;
+
+    /// A bar of which some nodes are held, below a plate that is lowered from just above it within a second.
+    class LoweredPlate
+    {
+    public:
+      LoweredPlate(const std::string &held,
+                   const double       lowered_by,
+                   const std::string &motion = "0; 0; 0")
+          : scene("set Scene = static\nsubsection Mesh\n set Generator = box\n set Box size = 4, "
+                  "1, 1\n set "
+                  "Box cells = 12, 3, 3\nend\nsubsection Handles\n set Names = hand\n subsection "
+                  "hand\n set "
+                  "Select = "
+                  + held + "\n set Motion = " + motion + "\n end\nend\n"),
+            problem(scene.problem)
+      {
+        dealii::Tensor<1, 3> down;
+        down[2] = -1.;
+        const WallRules rules{ down,
+                               [lowered_by](const double t)
+                               { return -0.5 - 1.2 * width + lowered_by * t; },
+                               width, 1e4 };
+        problem.add_term(
+            [&]
+            {
+              auto made = std::make_unique<Wall>(rules);
+              made->move_to(0.);
+              wall = made.get();
+              return made;
+            });
+      }
+
+      /// The number of stages, and where they lead.
+      unsigned int
+      go()
+      {
+        State &state = problem.state;
+        problem.potential.begin_step(state, 1.);
+        State end = state;
+        problem.potential.set_time(1., end);
+        problem.constraints.handles.move(1., end.positions);
+        problem.system.factorize_metric(state.positions, state.weights);
+        StagedMotion motion(problem.potential, problem.constraints.handles);
+        const unsigned int n = motion.move(0., state.positions, 1., end.positions,
+                                           [&](std::vector<double> &forces)
+                                           { problem.system.bordered().apply_inverse(forces); });
+        positions            = end.positions;
+        return n;
+      }
+
+      Scene    scene;
+      Problem &problem;
+      Wall    *wall = nullptr;
+      Vector   positions;
+    };
+
+    TEST(StagedMotionTest, ABodyIsCarriedBeforeAPlate)
+    {
+      for (const double widths : { 0.1, 10., 100. })
+      {
+        LoweredPlate plate("box -1 -1 -0.51 5 1 -0.49", widths * width);
+        EXPECT_LE(plate.go(), 3u) << widths;
+        const double least = plate.wall->least_distance(plate.positions);
+        EXPECT_GT(least, 0.1 * width) << widths;
+        if (widths >= 10.)
+        {
+          EXPECT_LT(least, width);
+        }
+        // what is carried takes the cells below it along
+        EXPECT_NO_THROW(plate.problem.potential.get_body().update_rotations(plate.positions));
+      }
+    }
+
+    TEST(StagedMotionTest, AHandThatLiftsTheBodyAgainstThePlateDoesNotPushItThrough)
+    {
+      LoweredPlate plate("box -1 -1 -0.51 5 1 -0.49", 0., "0; 0; 0.1*t");
+      EXPECT_LE(plate.go(), 3u);
+      EXPECT_GT(plate.wall->least_distance(plate.positions), 0.1 * width);
+    }
+
+    TEST(StagedMotionTest, WhatDoesNotGiveWayIsToldInWords)
+    {
+      LoweredPlate lowered("box -1 -1 0.49 5 1 0.51", 10. * width),
+          lifted("box -1 -1 0.49 5 1 0.51", 0., "0; 0; 0.1*t");
+      for (LoweredPlate *plate : { &lowered, &lifted })
+        try
+        {
+          plate->go();
+          FAIL();
+        }
+        catch (const SolverFailure &failure)
+        {
+          expect_contains(failure.what(), "t = ");
+          expect_contains(failure.what(), "handle 'hand'");
+          expect_contains(failure.what(), "'wall'");
+        }
+    }
+
+    TEST(StagedMotionTest, StaticsPressABodyBelowAPlate)
+    {
+      for (const double widths : { 10., 100. })
+      {
+        LoweredPlate plate("box -1 -1 -0.51 5 1 -0.49", widths * width);
+        const State  before = plate.problem.state;
+        while (plate.problem.state.step < plate.problem.time_axis.n_steps())
+        {
+          ASSERT_EQ(plate.problem.advance().status, SolveStatus::converged) << widths;
+          EXPECT_GT(plate.wall->least_distance(plate.problem.state.positions), 0.);
+        }
+        EXPECT_NEAR(max_difference(plate.problem.state.positions, before.positions),
+                    (widths - 1.2) * width, 0.3 * widths * width);
+      }
+    }
+  } // namespace
+} // namespace Exemplar::Testing
