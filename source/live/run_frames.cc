@@ -122,6 +122,16 @@ namespace Exemplar::Live
       return cell;
     }
 
+    void
+    require_places(const fs::path &file, const std::vector<double> &places)
+    {
+      if (places.empty() || places.size() % 3 != 0)
+        refuse(file, "it has no points");
+      for (const double place : places)
+        if (!(std::abs(place) < 1e30)) // limit of what can be drawn
+          refuse(file, "a point has no finite place");
+    }
+
     Face
     sorted(Face face)
     {
@@ -167,12 +177,21 @@ namespace Exemplar::Live
   std::vector<double>
   places_in(const fs::path &file)
   {
-    const std::vector<double> places = array_in<double>(file, text_of_file(file), "Points");
-    if (places.empty() || places.size() % 3 != 0)
-      refuse(file, "it has no points");
-    for (const double place : places)
-      if (!(std::abs(place) < 1e30)) // limit of what can be drawn
-        refuse(file, "a point has no finite place");
+    std::vector<double> places = array_in<double>(file, text_of_file(file), "Points");
+    require_places(file, places);
+    return places;
+  }
+
+  std::vector<double>
+  rest_places_in(const fs::path &file)
+  {
+    std::vector<double>       places = places_in(file);
+    const std::vector<double> moved  = array_in<double>(file, text_of_file(file), "displacement");
+    if (moved.size() != places.size())
+      refuse(file, "its points have other displacements");
+    for (std::size_t i = 0; i < places.size(); ++i)
+      places[i] -= moved[i];
+    require_places(file, places);
     return places;
   }
 

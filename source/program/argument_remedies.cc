@@ -35,7 +35,8 @@ namespace Exemplar
       if (command == "study")
         return "exemplar study STUDY.prm";
       if (command == "export")
-        return "exemplar export OUTPUT [OTHER_OUTPUT] --html FILE.html";
+        return "exemplar export OUTPUT [OTHER_OUTPUT] --html FILE.html, or exemplar export OUTPUT "
+               "--gltf FILE.glb";
       return command.empty() ? "exemplar SCENE.prm" : "exemplar " + command;
     }
 
@@ -127,7 +128,7 @@ namespace Exemplar
       { "mesh", "--scale", "Lengths are changed in the scene, by Mesh/Scale." },
       { "mesh", "--threads", "Cells are filled in by one thread." },
       { "pose", "--cells", "Cells are made before, by exemplar mesh --cells N." },
-      { "export", "--output", "The page is named by --html FILE.html." },
+      { "export", "--output", "What is written is named by --html FILE.html or --gltf FILE.glb." },
       { "", "--session", "A recorded session is played by --set Session/File=FILE." },
       { "", "--record",
         "What is done by hand is recorded by exemplar live SCENE.prm --record DIRECTORY." },

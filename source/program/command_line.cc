@@ -8,7 +8,6 @@
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/base/version.h>
 #include <exemplar/base/whole_program.h>
-#include <exemplar/live/export_page.h>
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/argument_remedies.h>
 #include <exemplar/program/commands.h>
@@ -36,26 +35,6 @@ namespace Exemplar
 {
   namespace
   {
-    /// Options of `exemplar export`.
-    struct PageOptions
-    {
-      std::vector<std::string> runs; ///< output directories
-      std::string              html; ///< file of the page
-    };
-
-    /// Write a page that plays the frames of runs, and print its accuracy. Throws UserError with
-    /// nothing written.
-    void
-    write_page(const PageOptions &options)
-    {
-      const Live::RunPage page = Live::export_page(options.runs, options.html);
-      std::cout << fmt::format(
-          "{}: {} frames, {:.1f} MB; coordinates are rounded by {:.1e} m at most", options.html,
-          page.n_frames, 1e-6 * page.html.size(), page.error)
-                << std::endl;
-      require_printed();
-    }
-
     /// Replace this process by exemplar-live, the program next to this one, with the same
     /// arguments; returns only by UserError.
     [[noreturn]] void
@@ -85,7 +64,7 @@ namespace Exemplar
 
       MeshCommandOptions mesh;
       PoseOptions        pose;
-      PageOptions        page;
+      ExportOptions      exported;
     };
 
     /// The last part of --help.
@@ -225,15 +204,23 @@ Exit status:
     CLI::App &
     declare_export(CLI::App &app, Arguments &arguments)
     {
-      CLI::App &command
-          = add_command(app, "export", "write the frames of a finished run as one page of HTML",
-                        "output/cat --html cat.html");
+      CLI::App &command = add_command(
+          app, "export", "write the frames of a finished run as a page of HTML, or as glTF",
+          "output/cat --html cat.html");
+      ExportOptions &exported = arguments.exported;
       command
-          .add_option("OUTPUT", arguments.page.runs,
-                      "output directory of the run; of two runs: side by side")
+          .add_option("OUTPUT", exported.runs,
+                      "output directory of the run; of two runs: side by side in a page")
           ->required()
           ->expected(1, 2);
-      command.add_option("--html", arguments.page.html, "the page to write")->required();
+      command.add_option("--html", exported.html, "the page to write");
+      command.add_option("--gltf", exported.gltf,
+                         "the file to write (.glb): morph targets with keyed weights");
+      add_number_option(command, "--shapes", exported.n_shapes, 0U, 1000U,
+                        "targets of the glTF beside the examples, instead of as many as bring all "
+                        "vertices within .5 % of the diagonal");
+      command.add_flag("--normals", exported.with_normals,
+                       "normals in the glTF, of all targets, too");
       return command;
     }
 
@@ -342,6 +329,8 @@ Exit status:
         for (const std::string option : { "--cells", "--output" })
           if (mesh_command.count(option) == 0)
             throw CLI::RequiredError(option);
+      if (export_command && export_command.count("--html") + export_command.count("--gltf") == 0)
+        throw CLI::RequiredError("--html or --gltf");
       if (study_command && !arguments.print_study && arguments.study.file.empty())
         throw CLI::RequiredError("STUDY");
     }
@@ -383,7 +372,7 @@ Exit status:
     else if (pose_command)
       carry_poses(arguments.pose);
     else if (export_command)
-      write_page(arguments.page);
+      export_runs(arguments.exported);
     else
       do_scene(arguments);
     return 0;

@@ -373,10 +373,19 @@ def session_case(r, _):
 
 
 def export_case(r, _):
-    """A run of which one file is damaged is shown as a page."""
+    """A run of which one file is damaged is shown as a page, or as glTF."""
     scene = {**r.choice([scene for scene in bases.SCENES if scene["Scene"] == "dynamic"]), "Output/Every": "1"}
-    file = r.choice(["frame_0000.vtu"] * 5 + ["frame_0001.vtu"] * 2 + ["animation.pvd"] * 2 + ["statistics.csv", "summary.json"])
-    return Case("export", good_files(scene.items()), ["export", "out", "--html", "page.html"], [["scene.prm", *OUT]],
+    files = good_files(scene.items())
+    of_page = ["frame_0000.vtu"] * 5 + ["frame_0001.vtu"] * 2 + ["animation.pvd"] * 2 + ["statistics.csv", "summary.json"]
+    of_gltf = [*of_page, "parameters.prm", "checkpoint.bin", "final.msh"]
+    arguments = r.choice([["--html", "page.html"], ["--gltf", "page.glb", *r.choice([[], ["--normals"], ["--shapes", "3"]])]])
+    if "--gltf" in arguments and r.random() < 0.6:  # of a surface
+        scene = {**bases.FILE, **bases.HELD, **bases.LATER, "Scene": "dynamic", "Mesh/Surface": "rest.obj", "Examples/Poses": "pose.msh",
+                 "Output/Formats": r.choice(["pc2", "mdd"]), "Output/Every": "1"}
+        files = {**good_files(scene.items()), "rest.obj": skins.obj(skins.box_skin())}
+        of_gltf = ["animation." + scene["Output/Formats"], "rest.obj", "weight_1.obj", "statistics.csv", "parameters.prm", "summary.json"]
+    file = r.choice(of_page if "--html" in arguments else of_gltf)
+    return Case("export", files, ["export", "out", *arguments], [["scene.prm", *OUT]],
                 {"file": "out/" + file, "seed": r.randrange(2**32), "how": "spoilt_frame" if file.endswith("vtu") else "damaged"})
 
 

@@ -10,11 +10,13 @@ call, and what was wrong; --repeat runs it again. Ends with status 1 if there wa
 
 import argparse
 import json
+import math
 import multiprocessing
 import os
 import random
 import re
 import shutil
+import struct
 import sys
 import tempfile
 import time
@@ -29,6 +31,7 @@ from fork_server import ForkServer
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scenes"))
 from exemplar_runner import EXEMPLAR, results  # noqa: E402
+from gltf_reader import Gltf  # noqa: E402
 
 
 class Fuzzer:
@@ -85,7 +88,7 @@ class Fuzzer:
             return ended, []
         faults = oracle.faults_of_end(ended, time_limit=self.time_limit)
         if case.kind == "export":
-            faults += self.faults_of_page(ended, directory)
+            faults += self.faults_of_page(ended, directory, case.arguments)
         else:
             faults += oracle.faults_of_files(ended, before, oracle.tree(directory))
         if not faults and ended.status == 0 and case.check:
@@ -95,13 +98,21 @@ class Fuzzer:
         return ended, faults
 
     @staticmethod
-    def faults_of_page(ended, directory):
-        """A page is there, with data that can be read, or there is none; nothing is left beside it."""
-        page = directory / "page.html"
+    def faults_of_page(ended, directory, arguments):
+        """A page or glTF is there, with data that can be read, or there is none; nothing is left beside it."""
+        page = directory / ("page.glb" if "--gltf" in arguments else "page.html")
         if page.exists() != (ended.status == 0):
             return [f"status {ended.status}, and the page is {'there' if page.exists() else 'not there'}"]
-        faults = [f"{file.name} is left" for file in directory.iterdir() if file.name.startswith("page.html.")]
-        if page.exists():
+        faults = [f"{file.name} is left" for file in directory.iterdir() if file.name.startswith(page.name + ".")]
+        if page.exists() and "--gltf" in arguments:
+            try:
+                gltf = Gltf(page)
+                for number in range(len(gltf.json["accessors"])):
+                    if not all(math.isfinite(x) for row in gltf.accessor(number) for x in row):
+                        faults.append("a number in the glTF is not finite")
+            except (ArithmeticError, AssertionError, LookupError, ValueError, struct.error) as error:
+                faults.append(f"the glTF cannot be read: {error!r}")
+        elif page.exists():
             try:
                 json.loads(page.read_text().split('id="data">')[1].split("</script>")[0], parse_constant=lambda name: faults.append(f"{name} in the data"))
             except (ValueError, IndexError) as error:

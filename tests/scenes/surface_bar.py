@@ -92,7 +92,7 @@ def read_pc2(file):
 class UsdaReader:
     """Text of USD, as far as layers with a mesh have it, into dictionaries: {"(metadata)": ..., "def Mesh \"x\"": {...}}."""
 
-    TOKEN = re.compile(r'"[^"]*"|[A-Za-z_][\w.:]*(?:\[\])?|-?\d[\d.]*(?:e[-+]?\d+)?|[][(){}=:,]')
+    TOKEN = re.compile(r'"[^"]*"|<[^>]*>|@@@.*?@@@|[A-Za-z_][\w.:]*(?:\[\])?|-?\d[\d.]*(?:e[-+]?\d+)?|[][(){}=:,]')
 
     def __init__(self, text):
         head, text = text[:10], text[10:]
@@ -127,7 +127,9 @@ class UsdaReader:
                 self.take(",")
             self.take("}")
             return samples
-        return token[1:-1] if token[0] == '"' else float(token)
+        if token[0] in '"<@':
+            return token.strip('"<>@')
+        return float(token)
 
     def statements(self, end):
         """Attributes, prims, and "(metadata)" of the layer and of prims."""
@@ -158,3 +160,8 @@ def read_usda(file):
     """(metadata of the layer, attributes of the mesh)."""
     layer = UsdaReader(file.read_text()).statements(None)
     return layer["(metadata)"], layer['def Xform "body"']['def Mesh "surface"']
+
+
+def read_usda_prims(file):
+    """What stands in the prim of the body."""
+    return UsdaReader(file.read_text()).statements(None)['def Xform "body"']

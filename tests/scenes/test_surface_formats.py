@@ -10,7 +10,7 @@ import subprocess
 import unittest
 
 from exemplar_runner import EXEMPLAR, SceneTest, bent, bend, prm, results, write_msh, wait_until
-from surface_bar import bar_surface, obj_text, read_mdd, read_obj, read_pc2, read_ply, read_usda
+from surface_bar import bar_surface, obj_text, read_mdd, read_obj, read_pc2, read_ply, read_usda, read_usda_prims
 
 SCENE = {
     "Scene": "dynamic",
@@ -117,10 +117,60 @@ class SurfaceFormats(SceneTest):
             self.assertEqual(extents[time], [tuple(map(min, zip(*found))), tuple(map(max, zip(*found)))])
         st, indices = mesh["texCoord2f[] primvars:st"], mesh["int[] primvars:st:indices"]
         self.assertEqual([single(st[int(i)]) for i in indices], [single(self.surface.texture[i]) for i in flat(self.surface.faces)])
-        groups = {name: value for name, value in mesh.items() if name.startswith("def GeomSubset")}
+        groups = {name: value for name, value in mesh.items() if name.startswith("def GeomSubset") and "material_" not in name
+                  and not name.endswith("(metadata)")}
         self.assertEqual(groups['def GeomSubset "ends"']["int[] indices"],
                          [f for f, group in enumerate(self.surface.groups) if group == "ends"])
         self.assertEqual(len(groups), 5)
+
+    def test_usda_moves_shades_and_fills(self):
+        """Velocities are those of implicit Euler; normals look away from the body; cells fill the boundary; materials."""
+        self.write("bar.mtl", "newmtl paint of top\nKd 0.25 0.5 1\nNs 250\nmap_Kd sky.png\nnewmtl paint of front\nKd 1 0 0\nd 0.5\n")
+        output = self.solve({**SCENE, "Output/Formats": "usda, vtu", "Output/Every": "1", "Time/End": "0.1"})
+        prims = read_usda_prims(output / "animation.usda")
+        mesh, cells = prims['def Mesh "surface"'], prims['def TetMesh "cells"']
+        points, velocities = (list(mesh[name + ".timeSamples"].values()) for name in ("point3f[] points", "vector3f[] velocities"))
+        self.assertEqual(set(flat(velocities[0])), {0})
+        for before, after, velocity in zip(points, points[1:], velocities[1:]):
+            for a, b, v in zip(flat(before), flat(after), flat(velocity), strict=True):
+                self.assertAlmostEqual((b - a) / .02, v, delta=5e-5)
+        self.assertEqual(mesh["normal3f[] normals (metadata)"], {"interpolation": "vertex"})
+        for places, normals in zip(points, mesh["normal3f[] normals.timeSamples"].values()):
+            for face in self.surface.faces:
+                a, b, c = (places[i] for i in face[:3])
+                u, v = ([q - p for p, q in zip(a, x)] for x in (b, c))
+                n = [u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3] for i in range(3)]
+                for i in face:
+                    self.assertAlmostEqual(math.hypot(*normals[i]), 1, delta=1e-6)
+                    if len(face) == 4:  # three corners of an end are nearly on a line
+                        self.assertGreater(sum(p * q for p, q in zip(n, normals[i])) / math.hypot(*n), 0.)
+        # cells: volumes are positive and sum to what the boundary encloses
+        self.assertEqual(cells["uniform token purpose"], "guide")
+        nodes = cells["point3f[] points.timeSamples"][0.]
+        self.assertEqual(cells["float3[] extent.timeSamples"][0.], [(0, -.5, -.5), (4, .5, .5)])
+
+        def sextuple(a, b, c):
+            return (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]))
+        volumes = []
+        for cell in cells["int4[] tetVertexIndices"]:
+            a, *others = (nodes[int(i)] for i in cell)
+            volumes.append(sextuple(*([q - p for p, q in zip(a, x)] for x in others)) / 6)
+        self.assertGreater(min(volumes), 0)
+        self.assertAlmostEqual(sum(volumes), 4, delta=1e-6)
+        faces = cells["int3[] surfaceFaceVertexIndices"]
+        self.assertAlmostEqual(sum(sextuple(*(nodes[int(i)] for i in face)) for face in faces) / 6, 4, delta=1e-6)
+        # materials
+        materials = prims['def Scope "materials"']
+        top = materials['def Material "paint_of_top"']
+        self.assertEqual(top["token outputs:surface.connect"], "/body/materials/paint_of_top/surface.outputs:surface")
+        self.assertEqual(top['def Shader "surface"']["color3f inputs:diffuseColor.connect"], "/body/materials/paint_of_top/image.outputs:rgb")
+        self.assertEqual(top['def Shader "surface"']["float inputs:roughness"], .5)
+        self.assertEqual(top['def Shader "image"']["asset inputs:file"], str(self.directory.resolve() / "sky.png"))
+        front = materials['def Material "paint_of_front"']['def Shader "surface"']
+        self.assertEqual((front["color3f inputs:diffuseColor"], front["float inputs:opacity"]), ((1, 0, 0), .5))
+        subset = mesh['def GeomSubset "material_paint_of_top"']
+        self.assertEqual(subset["rel material:binding"], "/body/materials/paint_of_top")
+        self.assertEqual(subset["int[] indices"], [f for f, group in enumerate(self.surface.groups) if group == "top"])
 
     def test_unit_of_the_file(self):
         """Millimetres; no gravity, so up is y."""

@@ -31,6 +31,10 @@ namespace Exemplar::Live
   std::vector<std::vector<unsigned int>>
   polygons_in(const std::filesystem::path &file);
 
+  /// Positions of the nodes at rest, as places_in() has them in a frame.
+  std::vector<double>
+  rest_places_in(const std::filesystem::path &file);
+
   /// The boundary of the cells in a frame: the three nodes of each triangle, counterclockwise from
   /// outside.
   std::vector<std::array<unsigned int, 3>>

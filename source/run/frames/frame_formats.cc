@@ -46,7 +46,7 @@ namespace Exemplar
     static const std::vector<FrameFormat> formats = {
       { "vtu", "animation.pvd", make_vtu_writer,
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\"",
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">", false,
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">", false, false,
         write_joint_vtu, "pvtu",
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\"",
         make_carried_vtu_writer },
@@ -58,7 +58,7 @@ namespace Exemplar
       { "pc2", "animation.pc2", make_pc2_writer, "POINTCACHE2\0\1\0\0\0"s, "POINTCACHE2\0\1\0\0\0"s,
         true },
       { "usda", "animation.usda", make_usda_writer, "#usda 1.0\n(\n    doc = \"a frame by exemplar",
-        "#usda 1.0\n(\n    doc = \"an animation by exemplar", true },
+        "#usda 1.0\n(\n    doc = \"an animation by exemplar", true, true },
     };
     return formats;
   }

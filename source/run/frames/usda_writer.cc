@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Format: OpenUSD, "USDA file format" and schemas UsdGeomMesh, UsdGeomSubset and UsdGeomPrimvar.
+// Format: OpenUSD, "USDA file format" and schemas UsdGeomMesh, UsdGeomTetMesh, UsdGeomSubset, UsdGeomPrimvar and
+// UsdPreviewSurface.
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/run/frames/frame_formats.h>
 #include <exemplar/run/frames/frame_writer.h>
 #include <exemplar/run/frames/single_precision.h>
+#include <exemplar/surface/files/material_library.h>
+#include <exemplar/surface/shape/vectors.h>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -123,6 +127,15 @@ namespace Exemplar
       return text;
     }
 
+    /// A tuple of whole numbers for each item.
+    template <typename Items>
+    std::string
+    list_of_tuples(const Items &items)
+    {
+      return list_of(items, [](std::string &text, const auto &item)
+                     { fmt::format_to(std::back_inserter(text), "({})", fmt::join(item, ", ")); });
+    }
+
     /// The attributes that are constant in time, faces and texture coordinates.
     std::string
     topology_of(const SurfaceMesh &surface)
@@ -135,24 +148,133 @@ namespace Exemplar
       }
       return "        uniform token subdivisionScheme = \"none\"\n"
              "        int[] faceVertexCounts = "
-             + list_of_numbers(counts) + "\n        int[] faceVertexIndices = "
-             + list_of_numbers(corners) + '\n' + texture_of(surface);
+             + list_of_numbers(counts)
+             + "\n        int[] faceVertexIndices = " + list_of_numbers(corners)
+             + "\n        normal3f[] normals (\n            interpolation = \"vertex\"\n        )\n"
+             + texture_of(surface);
     }
 
-    /// The attribute with a time sample in each frame.
-    const std::string &
-    points_attribute()
+    /// The cells of the mesh and its boundary; a guide, so that only the surface is drawn.
+    std::string
+    topology_of(const Mesh &mesh)
     {
-      static const std::string name = "point3f[] points";
-      return name;
+      std::vector<std::array<unsigned int, 3>> faces;
+      for (const BoundaryFace &face : mesh.get_boundary_faces())
+        faces.push_back(face.nodes);
+      return "        uniform token purpose = \"guide\"\n        int4[] tetVertexIndices = "
+             + list_of_tuples(mesh.get_cells())
+             + "\n        int3[] surfaceFaceVertexIndices = " + list_of_tuples(faces) + '\n';
     }
 
-    const std::string &
-    extent_attribute()
+    std::string
+    colour_text(const std::array<double, 3> &colour)
     {
-      static const std::string name = "float3[] extent";
-      return name;
+      return fmt::format("({}, {}, {})", colour[0], colour[1], colour[2]);
     }
+
+    /// A material, and the shaders of a texture if it has one.
+    std::string
+    material_text(const std::string &prim, const SurfaceMaterial &material)
+    {
+      const std::string path   = "/body/materials/" + prim;
+      const bool        image  = material.texture.has_value();
+      const std::string colour = image ? ".connect = <" + path + "/image.outputs:rgb>"
+                                       : " = " + colour_text(material.colour);
+      std::string       text
+          = "\n        def Material \"" + prim
+            + "\"\n        {\n            token outputs:surface.connect = <" + path
+            + "/surface.outputs:surface>\n\n            def Shader \"surface\"\n            {\n"
+              "                uniform token info:id = \"UsdPreviewSurface\"\n"
+              "                color3f inputs:diffuseColor"
+            + colour + "\n                color3f inputs:emissiveColor = "
+            + colour_text(material.emission) + "\n                float inputs:opacity = "
+            + shortest_text(material.opacity) + "\n                float inputs:roughness = "
+            + shortest_text(1. - std::sqrt(material.exponent / 1000.))
+            + "\n                token outputs:surface\n            }\n";
+      if (image)
+        text += "\n            def Shader \"image\"\n            {\n"
+                "                uniform token info:id = \"UsdUVTexture\"\n"
+                "                asset inputs:file = @@@"
+                + material.texture->string()
+                + "@@@\n"
+                  "                float2 inputs:st.connect = <"
+                + path
+                + "/st.outputs:result>\n"
+                  "                token inputs:wrapS = \"repeat\"\n                token "
+                  "inputs:wrapT = \"repeat\"\n"
+                  "                float3 outputs:rgb\n            }\n"
+                  "\n            def Shader \"st\"\n            {\n"
+                  "                uniform token info:id = \"UsdPrimvarReader_float2\"\n"
+                  "                string inputs:varname = \"st\"\n                float2 "
+                  "outputs:result\n            }\n";
+      return text + "        }\n";
+    }
+
+    /// The materials of a surface, and the subsets of its faces that have them.
+    struct MaterialTexts
+    {
+      std::string subsets, scope; ///< empty without materials
+    };
+
+    MaterialTexts
+    materials_of(const SurfaceMesh &surface, const std::filesystem::path &folder)
+    {
+      const auto known = read_material_libraries(surface, { folder }).materials;
+      const auto names = material_names(surface);
+      std::map<std::string, std::vector<unsigned int>> faces;
+      for (unsigned int face = 0; face < names.size(); ++face)
+        if (!names[face].empty())
+          faces[names[face]].push_back(face);
+      MaterialTexts         texts;
+      std::set<std::string> taken;
+      for (const auto &[name, list] : faces)
+      {
+        const std::string prim  = prim_name(name, taken);
+        const auto        found = known.find(name);
+        texts.subsets += "\n        def GeomSubset \"material_" + prim
+                         + "\" (\n            prepend apiSchemas = [\"MaterialBindingAPI\"]\n      "
+                           "  )\n        {\n"
+                           "            uniform token elementType = \"face\"\n"
+                           "            uniform token familyName = \"materialBind\"\n            "
+                           "int[] indices = "
+                         + list_of_numbers(list)
+                         + "\n            rel material:binding = </body/materials/" + prim
+                         + ">\n        }\n";
+        texts.scope
+            += material_text(prim, found == known.end() ? SurfaceMaterial() : found->second);
+      }
+      if (!texts.scope.empty())
+        texts.scope = "\n    def Scope \"materials\"\n    {" + texts.scope + "    }\n";
+      return texts;
+    }
+
+    /// What has a time sample in each frame.
+    enum class Sampled
+    {
+      points,
+      extent,
+      normals,
+      velocities,
+      points_of_cells,
+      extent_of_cells
+    };
+
+    const std::string &
+    declaration_of(const Sampled sampled)
+    {
+      static const std::string declarations[]
+          = { "point3f[] points",      "float3[] extent",  "normal3f[] normals",
+              "vector3f[] velocities", "point3f[] points", "float3[] extent" };
+      return declarations[static_cast<int>(sampled)];
+    }
+
+    bool
+    is_of_cells(const Sampled sampled)
+    {
+      return sampled == Sampled::points_of_cells || sampled == Sampled::extent_of_cells;
+    }
+
+    const std::string head_of_cells = "    def TetMesh \"cells\"";
 
     std::string
     begin_samples(const std::string &attribute)
@@ -160,14 +282,18 @@ namespace Exemplar
       return "        " + attribute + ".timeSamples = {\n";
     }
 
-    /// The text of an attribute's sample in a frame's file.
+    /// The text of a sample in a frame's file.
     std::string
-    sample_in(const std::filesystem::path &frame, const std::string &attribute)
+    sample_in(const std::filesystem::path &frame, const Sampled sampled)
     {
       std::ifstream in(frame);
       std::string   line;
+      bool          is_inside = !is_of_cells(sampled);
       while (std::getline(in, line))
-        if (line + '\n' == begin_samples(attribute) && std::getline(in, line))
+        if (line == head_of_cells)
+          is_inside = !is_inside;
+        else if (is_inside && line + '\n' == begin_samples(declaration_of(sampled))
+                 && std::getline(in, line))
           if (const auto begin = line.find(": ["); begin != std::string::npos && line.back() == ',')
             return line.substr(begin + 2, line.size() - begin - 3); // without the comma
       throw std::runtime_error(
@@ -176,18 +302,19 @@ namespace Exemplar
             "scene without --resume.");
     }
 
-    struct Samples
-    {
-      std::string points, extent;
-    };
-
-    Samples
-    samples_of(const Frame &frame)
+    std::vector<SinglePoint>
+    in_single_precision(const std::vector<SurfaceMesh::Vertex> &vertices)
     {
       std::vector<SinglePoint> points;
-      for (const auto &vertex : frame.surface)
+      for (const auto &vertex : vertices)
         points.push_back({ { single_precision(vertex[0]), single_precision(vertex[1]),
                              single_precision(vertex[2]) } });
+      return points;
+    }
+
+    std::array<SinglePoint, 2>
+    extent_of(const std::vector<SinglePoint> &points)
+    {
       std::array<SinglePoint, 2> extent{ { points.at(0), points.at(0) } };
       for (const SinglePoint &point : points)
         for (unsigned int c = 0; c < 3; ++c)
@@ -195,7 +322,38 @@ namespace Exemplar
           extent[0][c] = std::min(extent[0][c], point[c]);
           extent[1][c] = std::max(extent[1][c], point[c]);
         }
-      return { list_of(points, append_point), list_of(extent, append_point) };
+      return extent;
+    }
+
+    /// Unit normals at the vertices: means over the faces, weighted by their angles.
+    std::vector<SurfaceMesh::Vertex>
+    normals_of(const std::vector<std::vector<unsigned int>> &faces,
+               const std::vector<SurfaceMesh::Vertex>       &places)
+    {
+      std::vector<SurfaceMesh::Vertex> normals(places.size(), { { 0., 0., 0. } });
+      for (const auto &face : faces)
+      {
+        SurfaceMesh::Vertex normal{ { 0., 0., 0. } };
+        for (std::size_t i = 1; i + 1 < face.size(); ++i)
+          normal = plus(normal, 1.,
+                        cross(minus(places[face[i]], places[face[0]]),
+                              minus(places[face[i + 1]], places[face[0]])));
+        const double length = norm(normal);
+        for (std::size_t i = 0; length > 0. && i < face.size(); ++i)
+        {
+          const auto  &x     = places[face[i]];
+          const auto   next  = minus(places[face[(i + 1) % face.size()]], x);
+          const auto   last  = minus(places[face[(i + face.size() - 1) % face.size()]], x);
+          const double angle = std::atan2(norm(cross(next, last)), dot(next, last));
+          normals[face[i]]   = plus(normals[face[i]], angle / length, normal);
+        }
+      }
+      for (auto &normal : normals)
+        if (const double length = norm(normal); length > 0.)
+          normal = plus({ { 0., 0., 0. } }, 1. / length, normal);
+        else
+          normal = { { 0., 0., 1. } };
+      return normals;
     }
 
     /// Writes the surface of the body as text of Pixar's Universal Scene Description. A frame is a
@@ -205,19 +363,21 @@ namespace Exemplar
     public:
       explicit UsdaWriter(const FrameSubject &subject)
           : prim(prim_of(subject.carried)), topology(topology_of(*subject.surface)),
-            groups(groups_of(*subject.surface)), meters_per_unit(subject.mesh.get_scale()),
-            playback(subject.playback)
+            groups(groups_of(*subject.surface)),
+            materials(materials_of(*subject.surface, subject.folder)),
+            cells(subject.carried.empty() ? topology_of(subject.mesh) : ""),
+            faces(subject.surface->faces), n_nodes(subject.mesh.n_nodes()),
+            meters_per_unit(subject.mesh.get_scale()), playback(subject.playback),
+            has_velocities(playback.has_velocities && subject.carried != name_of_obstacles)
       {
       }
 
       void
       write(const Frame &frame, const std::filesystem::path &file) const override
       {
-        const Samples samples = samples_of(frame);
-        AtomicFile    atomic_file(file);
+        AtomicFile atomic_file(file);
         write_layer(atomic_file.stream(), "a frame", { frame.time },
-                    [&](std::size_t, const std::string &attribute)
-                    { return attribute == points_attribute() ? samples.points : samples.extent; });
+                    [&](std::size_t, const Sampled sampled) { return sample_of(frame, sampled); });
         atomic_file.commit_without_sync();
       }
 
@@ -230,8 +390,8 @@ namespace Exemplar
           times.push_back(frame.time);
         AtomicFile atomic_file(file);
         write_layer(atomic_file.stream(), "an animation", times,
-                    [&](const std::size_t i, const std::string &attribute)
-                    { return sample_in(frames[i].file, attribute); });
+                    [&](const std::size_t i, const Sampled sampled)
+                    { return sample_in(frames[i].file, sampled); });
         if (!frames.front().obstacles.empty())
           atomic_file.stream() << "\ndef Xform \"obstacles\" (\n    references = @./"
                                << file.stem().string() << '_' << name_of_obstacles
@@ -247,6 +407,43 @@ namespace Exemplar
         const double code    = time / playback.interval;
         const double nearest = std::round(code);
         return shortest_text(std::abs(code - nearest) < 1e-6 ? nearest : code);
+      }
+
+      std::string
+      sample_of(const Frame &frame, const Sampled sampled) const
+      {
+        const auto points = [&]
+        {
+          if (!is_of_cells(sampled))
+            return frame.surface;
+          std::vector<SurfaceMesh::Vertex> nodes(n_nodes);
+          for (unsigned int dof = 0; dof < 3 * n_nodes; ++dof)
+            nodes[dof / 3][dof % 3] = frame.positions[dof] / meters_per_unit;
+          return nodes;
+        };
+        const auto list = [](const std::vector<SurfaceMesh::Vertex> &vertices)
+        { return list_of(in_single_precision(vertices), append_point); };
+        if (sampled == Sampled::extent || sampled == Sampled::extent_of_cells)
+          return list_of(extent_of(in_single_precision(points())), append_point);
+        if (sampled == Sampled::normals)
+          return list(normals_of(faces, frame.surface));
+        return list(sampled == Sampled::velocities ? frame.surface_velocities : points());
+      }
+
+      template <typename SampleOf>
+      void
+      write_samples(std::ostream               &out,
+                    const std::vector<Sampled> &all,
+                    const std::vector<double>  &times,
+                    const SampleOf             &of) const
+      {
+        for (const Sampled sampled : all)
+        {
+          out << begin_samples(declaration_of(sampled));
+          for (std::size_t i = 0; i < times.size(); ++i)
+            out << "            " << time_code(times[i]) << ": " << of(i, sampled) << ",\n";
+          out << "        }\n";
+        }
       }
 
       template <typename SampleOf>
@@ -268,21 +465,30 @@ namespace Exemplar
                "    def Mesh \""
             << prim << "\"\n    {\n"
             << topology;
-        for (const std::string &attribute : { points_attribute(), extent_attribute() })
+        std::vector<Sampled> of_surface{ Sampled::points, Sampled::extent, Sampled::normals };
+        if (has_velocities)
+          of_surface.push_back(Sampled::velocities);
+        write_samples(out, of_surface, times, sample_of);
+        out << groups << materials.subsets << "    }\n";
+        if (!cells.empty())
         {
-          out << begin_samples(attribute);
-          for (std::size_t i = 0; i < times.size(); ++i)
-            out << "            " << time_code(times[i]) << ": " << sample_of(i, attribute)
-                << ",\n";
-          out << "        }\n";
+          out << '\n' << head_of_cells << "\n    {\n" << cells;
+          write_samples(out, { Sampled::points_of_cells, Sampled::extent_of_cells }, times,
+                        sample_of);
+          out << "    }\n";
         }
-        out << groups << "    }\n}\n";
+        out << materials.scope << "}\n";
       }
 
-      const std::string prim;
-      const std::string topology, groups; ///< the same in all frames
-      const double      meters_per_unit;
-      const Playback    playback;
+      const std::string   prim;
+      const std::string   topology, groups; ///< the same in all frames
+      const MaterialTexts materials;
+      const std::string   cells; ///< faces and cells of the mesh; empty for what is carried
+      const std::vector<std::vector<unsigned int>> faces;
+      const unsigned int                           n_nodes;
+      const double                                 meters_per_unit;
+      const Playback                               playback;
+      const bool has_velocities; ///< not of obstacles, which may jump
     };
   } // namespace
 

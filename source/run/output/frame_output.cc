@@ -34,6 +34,15 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    fs::path
+    folder_of(const std::string &file)
+    {
+      return file.empty() ? fs::path() : fs::absolute(file).parent_path();
+    }
+  } // namespace
+
   Frame
   frame_of(Problem &problem)
   {
@@ -51,6 +60,19 @@ namespace Exemplar
     for (NodalField &field : frame.fields)
       problem.body.exchange().assemble(field.values.begin(), field.n_components);
     return frame;
+  }
+
+  Playback
+  playback_of(const SceneParameters &scene, const TimeAxis &axis)
+  {
+    Playback result;
+    result.interval = axis.step_size(1) * scene.output.every;
+    if (scene.scene == SceneKind::dynamic) // 1 / 0.01 without rounding errors
+      result.frames_per_second = std::round(1e6 / result.interval) / 1e6;
+    result.has_velocities = scene.scene == SceneKind::dynamic;
+    const auto &g         = scene.loads.gravity;
+    result.z_is_up        = std::abs(g[2]) > std::abs(g[1]);
+    return result;
   }
 
   FrameOutput::FrameOutput(Problem                        &problem,
@@ -79,7 +101,9 @@ namespace Exemplar
   FrameOutput::make_body() const
   {
     const SceneParameters &scene = problem.parameters;
-    Shown                  shown{ "", problem.body.surface.get(), nullptr, {} };
+    Shown                  shown{
+      "", folder_of(scene.mesh.surface_file()), problem.body.surface.get(), nullptr, {}
+    };
     if (scene.output.shows_surface())
       shown.skin = std::make_unique<const SurfaceSkin>(*problem.body.surface, problem.body.mesh,
                                                        scene.mesh.surface_file());
@@ -89,7 +113,12 @@ namespace Exemplar
   FrameOutput::Shown
   FrameOutput::make_carried(const CarriedSurface &carried) const
   {
+    fs::path folder;
+    for (const std::string &file : problem.parameters.mesh.carried)
+      if (name_of_carried(file) == carried.name)
+        folder = folder_of(file);
     return { carried.name,
+             folder,
              &carried.surface,
              std::make_unique<const SurfaceSkin>(skin_of_carried(carried.surface, problem.body.mesh,
                                                                  "Mesh/Carry: " + carried.name)),
@@ -99,25 +128,13 @@ namespace Exemplar
   void
   FrameOutput::add_writers(Shown &shown) const
   {
-    const OutputParameters &output = problem.parameters.output;
+    const OutputParameters &output   = problem.parameters.output;
+    const Playback          playback = playback_of(problem.parameters, problem.time_axis);
     for (const std::string &name : output.formats)
       if (const FrameFormat &format = find_format(name, formats); output.every > 0)
-        shown.writers.emplace_back(&format,
-                                   format.writer_of({ problem.body.mesh, problem.body.fe_space,
-                                                      shown.surface, playback(), shown.carried }));
-  }
-
-  Playback
-  FrameOutput::playback() const
-  {
-    const SceneParameters &scene = problem.parameters;
-    Playback               result;
-    result.interval = problem.time_axis.step_size(1) * scene.output.every;
-    if (scene.scene == SceneKind::dynamic) // 1 / 0.01 without rounding errors
-      result.frames_per_second = std::round(1e6 / result.interval) / 1e6;
-    const auto &g  = scene.loads.gravity;
-    result.z_is_up = std::abs(g[2]) > std::abs(g[1]);
-    return result;
+        shown.writers.emplace_back(
+            &format, format.writer_of({ problem.body.mesh, problem.body.fe_space, shown.surface,
+                                        playback, shown.carried, shown.folder }));
   }
 
   Vector
@@ -205,6 +222,25 @@ namespace Exemplar
   }
 
   void
+  FrameOutput::show_surface(const SurfaceSkin         &skin,
+                            const std::vector<Writer> &writers,
+                            Frame                     &frame)
+  {
+    frame.surface = skin.carry(frame.displacement);
+    frame.surface_velocities.clear();
+    if (frame.velocities.size() == 0
+        || std::none_of(writers.begin(), writers.end(),
+                        [](const Writer &writer) { return writer.first->shows_velocities; }))
+      return;
+    // a skin is linear in displacements
+    frame.surface_velocities = skin.carry(frame.velocities);
+    const auto rest          = skin.carry(Vector(frame.velocities.size()));
+    for (std::size_t v = 0; v < rest.size(); ++v)
+      for (unsigned int c = 0; c < 3; ++c)
+        frame.surface_velocities[v][c] -= rest[v][c];
+  }
+
+  void
   FrameOutput::write_files(Frame &frame) const
   {
     const Exchange &exchange = problem.body.exchange();
@@ -212,9 +248,12 @@ namespace Exemplar
     for (const Shown &shown : all_shown)
     {
       if (shown.skin != nullptr)
-        frame.surface = shown.skin->carry(frame.displacement);
+        show_surface(*shown.skin, shown.writers, frame);
       if (shown.are_obstacles())
+      {
         frame.surface = frame.obstacles;
+        frame.surface_velocities.clear();
+      }
       for (const auto &[format, writer] : shown.writers)
       {
         const auto pieces

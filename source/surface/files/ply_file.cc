@@ -58,6 +58,10 @@ namespace Exemplar
       void
       add_face(std::size_t corners, std::size_t label, std::size_t n_properties);
       void
+      add_texture_point(double u, double v);
+      void
+      add_texture_of_face(const std::vector<double> &coordinates);
+      void
       check_indices() const;
 
       SurfaceScanner                  &in;
@@ -107,6 +111,14 @@ namespace Exemplar
         read_element(element);
       check_indices();
       faces.finish();
+      if (surface.texture_points.size() == surface.vertices.size()
+          && surface.face_texture_points.empty())
+        surface.face_texture_points = surface.faces; // a texture point a vertex
+      if (surface.face_texture_points.size() != surface.faces.size())
+      {
+        surface.texture_points.clear();
+        surface.face_texture_points.clear();
+      }
       return std::move(surface);
     }
 
@@ -116,13 +128,17 @@ namespace Exemplar
       using Names                     = std::vector<std::string_view>;
       const std::size_t          none = element.properties.size();
       std::array<std::size_t, 3> coordinates{ { none, none, none } };
-      std::size_t                corners = none, label = none, wanted = none;
+      std::size_t                corners = none, label = none, wanted = none, texture = none;
+      std::array<std::size_t, 2> texture_of_vertex{ { none, none } };
       if (element.name == "vertex")
       {
         coordinates = { { element.find(Names{ "x" }, false), element.find(Names{ "y" }, false),
                           element.find(Names{ "z" }, false) } };
         if (*std::max_element(coordinates.begin(), coordinates.end()) == none)
           in.fail("the vertices have no properties x, y and z. Export the surface anew.");
+        texture_of_vertex
+            = { { element.find(Names{ "s", "u", "texture_u", "texture_s" }, false),
+                  element.find(Names{ "t", "v", "texture_v", "texture_t" }, false) } };
         if (wants_attribute)
           wanted = find_attribute(element);
       }
@@ -130,6 +146,7 @@ namespace Exemplar
       {
         corners = element.find(Names{ "vertex_indices", "vertex_index" }, true);
         label   = element.find(label_names, false);
+        texture = element.find(Names{ "texcoord" }, true);
         if (corners == none)
           in.fail("the faces have no list vertex_indices. Export the surface anew.");
       }
@@ -142,12 +159,39 @@ namespace Exemplar
         if (element.name == "vertex")
         {
           add_vertex(coordinates);
+          if (std::max(texture_of_vertex[0], texture_of_vertex[1]) < none)
+            add_texture_point(values[texture_of_vertex[0]][0], values[texture_of_vertex[1]][0]);
           if (wanted < none)
             attributes.push_back(values[wanted][0] * unit_of(element.properties[wanted].type));
         }
         else if (corners < none)
+        {
           add_face(corners, label, none);
+          if (texture < none)
+            add_texture_of_face(values[texture]);
+        }
       }
+    }
+
+    void
+    PlyReader::add_texture_point(const double u, const double v)
+    {
+      surface.texture_points.push_back(
+          { { std::isfinite(u) ? u : 0., std::isfinite(v) ? v : 0. } });
+    }
+
+    /// Texture points of a face's corners, two numbers each; none from a list of another length.
+    void
+    PlyReader::add_texture_of_face(const std::vector<double> &coordinates)
+    {
+      std::vector<unsigned int> points;
+      if (coordinates.size() == 2 * surface.faces.back().size())
+        for (std::size_t i = 0; i < coordinates.size(); i += 2)
+        {
+          points.push_back(static_cast<unsigned int>(surface.texture_points.size()));
+          add_texture_point(coordinates[i], coordinates[i + 1]);
+        }
+      surface.face_texture_points.push_back(std::move(points));
     }
 
     void

@@ -23,16 +23,18 @@ namespace Exemplar
     double interval          = 1.; ///< between frames [s]; of t unless dynamic
     double frames_per_second = 24.;
     bool   z_is_up           = false; ///< else y is
+    bool   has_velocities    = false;
   };
 
   /// The objects that frames show; they outlive the writers.
   struct FrameSubject
   {
-    const Mesh        &mesh;
-    const FESpace     &fe_space;
-    const SurfaceMesh *surface; ///< in the file's unit; null unless a format shows it
-    Playback           playback = {};
-    std::string        carried  = {}; ///< name of the surface, if it is one of Mesh/Carry
+    const Mesh           &mesh;
+    const FESpace        &fe_space;
+    const SurfaceMesh    *surface; ///< in the file's unit; null unless a format shows it
+    Playback              playback = {};
+    std::string           carried  = {}; ///< name of the surface, if it is one of Mesh/Carry
+    std::filesystem::path folder   = {}; ///< of the surface's file
   };
 
   /// The name, as of a carried surface, of the obstacles' in their files.
@@ -56,6 +58,8 @@ namespace Exemplar
     std::string frame_beginning = {}, animation_beginning = {};
 
     bool shows_surface = false; ///< whether the writer needs the surface of the body
+
+    bool shows_velocities = false; ///< whether the writer needs the surface's velocities
 
     /// If processes share a body, each writes a piece of the frame, and a file joins them: its
     /// writer, extension and beginning; null and empty for formats without pieces.

@@ -26,10 +26,12 @@ namespace Exemplar
     CellResults  cells;
     /// Positions of the vertices of the body's surface in the unit of its file; empty unless a
     /// format shows it.
-    std::vector<SurfaceMesh::Vertex> surface     = {};
-    std::vector<SurfaceMesh::Vertex> obstacles   = {}; ///< the same of theirs, ObstaclePicture
-    std::optional<SpaceError>        space_error = {};
-    std::vector<NodalField>          fields      = {}; ///< of the potential's terms
+    std::vector<SurfaceMesh::Vertex> surface   = {};
+    std::vector<SurfaceMesh::Vertex> obstacles = {}; ///< the same of theirs, ObstaclePicture
+    /// Velocities of `surface` in that unit a second; empty unless dynamic, and a format shows them.
+    std::vector<SurfaceMesh::Vertex> surface_velocities = {};
+    std::optional<SpaceError>        space_error        = {};
+    std::vector<NodalField>          fields             = {}; ///< of the potential's terms
   };
 
   /// A frame that is on disk.

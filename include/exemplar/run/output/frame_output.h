@@ -21,6 +21,10 @@ namespace Exemplar
   Frame
   frame_of(Problem &problem);
 
+  /// How a scene's frames are played.
+  Playback
+  playback_of(const SceneParameters &scene, const TimeAxis &axis);
+
   /// The frames of a run, in the formats of Output/Formats. With more than one thread they are
   /// written while the next step is computed; write() and drain() may then throw the error of
   /// an earlier frame.
@@ -66,15 +70,13 @@ namespace Exemplar
     remove(unsigned int step) const;
 
   private:
-    Playback
-    playback() const;
-
     using Writer = std::pair<const FrameFormat *, std::unique_ptr<const FrameWriter>>;
 
     /// An object with frames: the body, or a surface that it carries.
     struct Shown
     {
       std::string                        carried; ///< name of a carried surface; empty: the body
+      std::filesystem::path              folder;  ///< of the surface's file
       const SurfaceMesh                 *surface; ///< null if no format shows the body's surface
       std::unique_ptr<const SurfaceSkin> skin;    ///< interpolates the surface; null likewise
       std::vector<Writer>                writers; ///< of the formats in use; empty without frames
@@ -106,6 +108,10 @@ namespace Exemplar
 
     static void
     refuse_what_is_not_finite(const Frame &frame);
+
+    /// Set the places of the surface's vertices, and their velocities if a format shows them.
+    static void
+    show_surface(const SurfaceSkin &skin, const std::vector<Writer> &writers, Frame &frame);
 
     /// Write the files of a frame; for a body that processes share, this process' piece.
     void

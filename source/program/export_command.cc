@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
+#include <exemplar/base/standard_streams.h>
+#include <exemplar/live/export_gltf.h>
+#include <exemplar/live/export_page.h>
+#include <exemplar/program/commands.h>
+
+#include <fmt/core.h>
+
+#include <iostream>
+
+namespace Exemplar
+{
+  namespace
+  {
+    void
+    write_page(const ExportOptions &options)
+    {
+      const Live::RunPage page = Live::export_page(options.runs, options.html);
+      std::cout << fmt::format(
+          "{}: {} frames, {:.1f} MB; coordinates are rounded by {:.1e} m at most", options.html,
+          page.n_frames, 1e-6 * page.html.size(), page.error)
+                << std::endl;
+    }
+
+    void
+    write_gltf(const ExportOptions &options)
+    {
+      if (options.runs.size() > 1)
+        throw UserError("--gltf takes one run: call it for each.");
+      const Live::GltfReport report = Live::export_gltf(
+          { options.runs.front(), options.gltf, options.n_shapes, options.with_normals });
+      std::cout << fmt::format("{}: {} frames of {} vertices, {} examples and {} shapes, {:.1f} "
+                               "MB; vertices are off by {:.3e} m at most, {:.3f} % of the diagonal",
+                               options.gltf, report.n_frames, report.n_vertices, report.n_examples,
+                               report.n_shapes, 1e-6 * report.n_bytes, report.error,
+                               100. * report.relative_error)
+                << std::endl;
+      for (const std::string &warning : report.warnings)
+        std::cerr << "Warning: " << message_text(warning) << std::endl;
+    }
+  } // namespace
+
+  void
+  export_runs(const ExportOptions &options)
+  {
+    if (options.gltf.empty() && (options.n_shapes || options.with_normals))
+      throw UserError("--shapes and --normals are those of --gltf FILE.glb.");
+    if (!options.gltf.empty() && !options.html.empty())
+      throw UserError("--html and --gltf write one file each: give one of them.");
+    if (options.gltf.empty())
+      write_page(options);
+    else
+      write_gltf(options);
+    require_printed();
+  }
+} // namespace Exemplar
