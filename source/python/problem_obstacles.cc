@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
-#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/held_problem.h>
 #include <exemplar/python/module_parts.h>

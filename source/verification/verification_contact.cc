@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/run/problem/obstacle_start.h>
 #include <exemplar/verification/verification.h>
 #include <exemplar/verification/verification_scene.h>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/run/adjoint/slope_of_contact.h>
 
 #include <algorithm>

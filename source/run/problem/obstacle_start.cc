@@ -2,7 +2,6 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/potential/contact_clearance.h>
-#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/run/problem/obstacle_start.h>
 #include <exemplar/run/problem/problem.h>
 

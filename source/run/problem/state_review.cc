@@ -3,7 +3,6 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/rigid_motion.h>
-#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/run/problem/example_starts.h>
 #include <exemplar/run/problem/obstacle_start.h>
 #include <exemplar/run/problem/state_review.h>

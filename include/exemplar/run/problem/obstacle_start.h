@@ -2,6 +2,7 @@
 #ifndef exemplar_obstacle_start_h
 #define exemplar_obstacle_start_h
 
+#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/run/problem/problem_parts.h>
 
 namespace Exemplar
@@ -21,7 +22,6 @@ namespace Exemplar
                  double                    time,
                  std::vector<std::string> &notes);
 
-  class ObstacleTerm;
   class Problem;
 
   /// The term of the obstacles in a problem's potential; null without obstacles.
