@@ -91,7 +91,7 @@ namespace Exemplar
           throw UserError("Mesh/Carry has a surface of the name 'obstacles', as files of the "
                           "obstacles are called. Rename its file.");
       picture.emplace(*obstacles, problem.body.mesh.diameter(), problem.body.mesh.get_scale());
-      all_shown.push_back({ name_of_obstacles, &picture->surface(), nullptr, {} });
+      all_shown.push_back({ name_of_obstacles, {}, &picture->surface(), nullptr, {} });
     }
     for (Shown &shown : all_shown)
       add_writers(shown);
