@@ -20,6 +20,9 @@ namespace Exemplar
     constexpr unsigned int max_metrics            = 2;  ///< that a step may ask for
     constexpr unsigned int max_changes            = 30; ///< of terms in a step
     constexpr unsigned int max_halvings           = 5;
+    /// So often what terms lag is renewed before a step is solved. Without a bound it jumps to and fro as the positions do,
+    /// and neither settles.
+    constexpr unsigned int n_early_changes = 3;
     /// Of a change that the slope promises, where the model of gaps has none.
     constexpr double min_promise = 1e-3;
     /// Times what is enough for the step: from there on what terms have lagged follows each iteration.
@@ -393,7 +396,8 @@ namespace Exemplar
     for (bool is_near = false;;)
     {
       const bool is_solved = is_near || has_met(parameters.tolerance, report);
-      if (potential.renew(trial, evaluation, is_solved || iteration.is_nearly_there)
+      if (potential.renew(trial, evaluation,
+                          is_solved || (iteration.is_nearly_there && n_changes < n_early_changes))
           != TermChange::none)
       {
         report_iteration(potential, evaluation, trial, report);

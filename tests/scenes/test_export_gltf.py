@@ -125,7 +125,7 @@ class ExportGltf(SceneTest):
                 errors.append(error)
             self.assertEqual("morph targets" in warnings, n + 2 > 8)
             for _, mesh in gltf.meshes().values():
-                self.assertEqual(mesh["extras"]["targetNames"], ["formula 1", "formula 2"] + [f"shape {i + 1}" for i in range(n)])
+                self.assertEqual(mesh["extras"]["targetNames"], ["example 1", "example 2"] + [f"shape {i + 1}" for i in range(n)])
             keys = gltf.keys(2, "weights")
             self.assertEqual(keys, gltf.keys(3, "weights"))
             for key, step in zip(keys, [*range(0, 17, 2), 17], strict=True):
@@ -342,7 +342,7 @@ class ExportGltf(SceneTest):
             self.assertEqual(len(found["frames"]), len(expected))
             for a, b in zip(found["frames"], expected):
                 self.assertLess(max(abs(p - q) for x, y in zip(a, b, strict=True) for p, q in zip(x, y)), 2e-5)
-            self.assertEqual(found["keys"], ["formula 1", "formula 2"] + [f"shape {i + 1}" for i in range(len(found["keys"]) - 2)])
+            self.assertEqual(found["keys"], ["example 1", "example 2"] + [f"shape {i + 1}" for i in range(len(found["keys"]) - 2)])
             self.assertTrue(found["uv"])
         self.assertEqual(sorted(result["body"]["materials"]), sorted("paint of " + g for g in ("bottom", "top", "front", "back", "ends")))
 
