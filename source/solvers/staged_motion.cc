@@ -105,12 +105,13 @@ namespace Exemplar
     for (unsigned int stage = 1; stage <= max_stages; ++stage)
     {
       to = target;
-      potential.move_to(time);
-      carry(to, follow);
+      potential.move_to(now);
+      carry(now, at, time, to, follow);
       Vector way = to;
       way -= at;
-      potential.move_to(now);
       const double part = potential.max_step_to(time, at, way);
+      if (getenv("DBG"))
+        fmt::print(stderr, "  stage {} now {} time {} part {}\n", stage, now, time, part);
       if (part >= 1.)
       {
         potential.move_to(time);
@@ -147,7 +148,11 @@ namespace Exemplar
   }
 
   void
-  StagedMotion::carry(Vector &to, const Follow &follow) const
+  StagedMotion::carry(const double  now,
+                      const Vector &from,
+                      const double  time,
+                      Vector       &to,
+                      const Follow &follow) const
   {
     const FreeDofs &free_dofs = potential.get_free_dofs();
     const Exchange &exchange  = free_dofs.exchange();
@@ -167,7 +172,7 @@ namespace Exemplar
       bool   is_more    = false;
       Vector difference = to;
       difference -= predicted;
-      for (const Gap &gap : potential.gaps(to, overtaken))
+      for (const Gap &gap : potential.gaps_of_way(now, time, from, to, overtaken))
         if (gap.stiffness > 0. && is_free(gap))
         {
           carried.push_back(gap);
@@ -184,49 +189,74 @@ namespace Exemplar
   Vector
   StagedMotion::push(const GapEnergies &gaps, const Follow &follow) const
   {
-    // U^T H U forces = missing, by conjugate gradients; nodes that several gaps push may make it singular
+    // forces f >= 0 with U^T H U f >= missing, and = where they push: conjugate gradients that begin anew where a force
+    // would pull; nodes that several gaps push may make the matrix singular
     const FreeDofs &free_dofs = potential.get_free_dofs();
     const Exchange &exchange  = free_dofs.exchange();
     const auto      product   = [&](const std::vector<double> &a, const std::vector<double> &b)
     { return exchange.sum(dot(a, b)); };
-    std::vector<double> missing(gaps.n_rows()), moved(free_dofs.size());
-    double              error         = 0.;
-    const auto          measure_error = [&]
-    {
-      error = 0.;
-      for (std::size_t r = 0; r < missing.size(); ++r)
-        error = std::max(error, std::abs(missing[r]) / gaps.gap_of(r).width);
-      error = exchange.max(error);
-    };
-    for (std::size_t r = 0; r < missing.size(); ++r)
-      missing[r] = carried_to * gaps.gap_of(r).width - gaps.gap_of(r).distance;
-    measure_error();
-    std::vector<double> forces  = missing;
-    double              squared = product(missing, missing);
-    for (unsigned int i = 0; i < max_push_steps && error > carried_error; ++i)
+    Vector     displacement(free_dofs.n_dofs());
+    const auto respond = [&](const std::vector<double> &by_row)
     {
       Vector field(free_dofs.n_dofs());
-      gaps.add_forces(forces, field);
+      gaps.add_forces(by_row, field);
       exchange.assemble(field.begin(), 3);
       std::vector<double> response;
       free_dofs.gather(field, response);
       follow(response);
       field = 0.;
       free_dofs.add(1., response, field);
-      const std::vector<double> image  = gaps.changes(field);
-      const double              length = squared / product(forces, image);
+      return field;
+    };
+    const std::size_t   n = gaps.n_rows();
+    std::vector<double> all_missing(n), missing(n), forces(n), direction(n), gradient(n);
+    for (std::size_t r = 0; r < n; ++r)
+      all_missing[r] = carried_to * gaps.gap_of(r).width - gaps.gap_of(r).distance;
+    missing            = all_missing;
+    double last_square = 0.; // of the gradient in the same face; 0: a new face
+    for (unsigned int i = 0; i < max_push_steps; ++i)
+    {
+      double error = 0.;
+      for (std::size_t r = 0; r < n; ++r)
+      {
+        error       = std::max(error, missing[r] / gaps.gap_of(r).width);
+        gradient[r] = forces[r] > 0. || missing[r] > 0. ? missing[r] : 0.;
+      }
+      if (!(exchange.max(error) > carried_error))
+        break;
+      const double square = product(gradient, gradient);
+      const double ratio  = last_square > 0. ? square / last_square : 0.;
+      for (std::size_t r = 0; r < n; ++r)
+        direction[r] = gradient[r] + ratio * direction[r];
+      const Vector              response = respond(direction);
+      const std::vector<double> image    = gaps.changes(response);
+      const double              length   = product(gradient, direction) / product(direction, image);
       if (!(length > 0.) || !std::isfinite(length))
         break;
-      add(missing, -length, image);
-      add(moved, length, response);
-      measure_error();
-      const double next = product(missing, missing), ratio = next / squared;
-      squared = next;
-      for (std::size_t r = 0; r < forces.size(); ++r)
-        forces[r] = missing[r] + ratio * forces[r];
+      bool pulls = false;
+      for (std::size_t r = 0; r < n; ++r)
+      {
+        forces[r] += length * direction[r];
+        pulls |= forces[r] < 0.;
+        forces[r] = std::max(forces[r], 0.);
+      }
+      pulls       = exchange.any(pulls);
+      last_square = pulls ? 0. : square;
+      if (pulls)
+        displacement = respond(forces);
+      else
+        displacement.add(length, response);
+      const std::vector<double> changes = gaps.changes(displacement);
+      for (std::size_t r = 0; r < n; ++r)
+        missing[r] = all_missing[r] - changes[r];
     }
-    Vector displacement(free_dofs.n_dofs());
-    free_dofs.add(1., moved, displacement);
+    if (getenv("DBG"))
+    {
+      double e = 0;
+      for (std::size_t r = 0; r < n; ++r)
+        e = std::max(e, missing[r] / gaps.gap_of(r).width);
+      fmt::print(stderr, "    push n {} error {}\n", n, e);
+    }
     return displacement;
   }
 
