@@ -110,8 +110,6 @@ namespace Exemplar
       Vector way = to;
       way -= at;
       const double part = potential.max_step_to(time, at, way);
-      if (getenv("DBG"))
-        fmt::print(stderr, "  stage {} now {} time {} part {}\n", stage, now, time, part);
       if (part >= 1.)
       {
         potential.move_to(time);
@@ -146,6 +144,134 @@ namespace Exemplar
     }
     refuse(start, time, from, way);
   }
+
+  namespace
+  {
+    /// The displacement u = H U f of least work after which gaps d + U^T u are at least in the middle of their widths: forces f >= 0, and 0
+    /// where a gap is wider than that. Conjugate gradients, which begin anew where a force would pull; gaps of which several push the
+    /// same nodes may make U^T H U singular.
+    class LeastPush
+    {
+    public:
+      LeastPush(const GapEnergies          &gaps,
+                const FreeDofs             &free_dofs,
+                const StagedMotion::Follow &follow)
+          : gaps(gaps), free_dofs(free_dofs), follow(follow), missing(missing_after(Vector())),
+            forces(missing.size()), direction(missing.size()), displacement(free_dofs.n_dofs())
+      {
+      }
+
+      Vector
+      find()
+      {
+        for (unsigned int i = 0; i < max_push_steps; ++i)
+        {
+          const std::vector<double> gradient = missing_where_pushed();
+          if (!is_wrong(gradient) || !improve(gradient))
+            break;
+          missing = missing_after(displacement);
+        }
+        return displacement;
+      }
+
+    private:
+      /// Of the middle of the widths, after a displacement or none.
+      std::vector<double>
+      missing_after(const Vector &by) const
+      {
+        std::vector<double> result(gaps.n_rows());
+        if (by.size() > 0)
+          result = gaps.changes(by);
+        for (std::size_t r = 0; r < result.size(); ++r)
+          result[r] = carried_to * gaps.gap_of(r).width - gaps.gap_of(r).distance - result[r];
+        return result;
+      }
+
+      std::vector<double>
+      missing_where_pushed() const
+      {
+        std::vector<double> result = missing;
+        for (std::size_t r = 0; r < result.size(); ++r)
+          if (!(forces[r] > 0.))
+            result[r] = std::max(result[r], 0.);
+        return result;
+      }
+
+      bool
+      is_wrong(const std::vector<double> &gradient) const
+      {
+        double error = 0.;
+        for (std::size_t r = 0; r < gradient.size(); ++r)
+          error = std::max(error, std::abs(gradient[r]) / gaps.gap_of(r).width);
+        return free_dofs.exchange().max(error) > carried_error;
+      }
+
+      /// Whether there was a step that does.
+      bool
+      improve(const std::vector<double> &gradient)
+      {
+        const double square = product(gradient, gradient);
+        const double ratio  = last_square > 0. ? square / last_square : 0.;
+        for (std::size_t r = 0; r < direction.size(); ++r)
+          direction[r] = gradient[r] + ratio * direction[r];
+        const Vector response = response_to(direction);
+        const double length
+            = product(gradient, direction) / product(direction, gaps.changes(response));
+        if (!(length > 0.) || !std::isfinite(length))
+          return false;
+        add(forces, length, direction);
+        if (free_dofs.exchange().any(drop_pulls()))
+        {
+          displacement = response_to(forces);
+          last_square  = 0.;
+          return true;
+        }
+        displacement.add(length, response);
+        last_square = square;
+        return true;
+      }
+
+      /// Whether there were some.
+      bool
+      drop_pulls()
+      {
+        bool result = false;
+        for (double &force : forces)
+        {
+          result |= force < 0.;
+          force = std::max(force, 0.);
+        }
+        return result;
+      }
+
+      Vector
+      response_to(const std::vector<double> &by_row) const
+      {
+        Vector field(free_dofs.n_dofs());
+        gaps.add_forces(by_row, field);
+        free_dofs.exchange().assemble(field.begin(), 3);
+        std::vector<double> response;
+        free_dofs.gather(field, response);
+        follow(response);
+        field = 0.;
+        free_dofs.add(1., response, field);
+        return field;
+      }
+
+      double
+      product(const std::vector<double> &a, const std::vector<double> &b) const
+      {
+        return free_dofs.exchange().sum(dot(a, b));
+      }
+
+      const GapEnergies          &gaps;
+      const FreeDofs             &free_dofs;
+      const StagedMotion::Follow &follow;
+      std::vector<double>         missing, forces, direction; ///< by row
+      Vector                      displacement;
+      double last_square = 0.; ///< of the gradient, if the direction goes on from that
+    };
+  } // namespace
 
   void
   StagedMotion::carry(const double  now,
@@ -182,82 +308,8 @@ namespace Exemplar
       if (!exchange.any(is_more))
         return;
       to = predicted;
-      to += push(GapEnergies(carried), follow);
+      to += LeastPush(GapEnergies(carried), free_dofs, follow).find();
     }
-  }
-
-  Vector
-  StagedMotion::push(const GapEnergies &gaps, const Follow &follow) const
-  {
-    // forces f >= 0 with U^T H U f >= missing, and = where they push: conjugate gradients that begin anew where a force
-    // would pull; nodes that several gaps push may make the matrix singular
-    const FreeDofs &free_dofs = potential.get_free_dofs();
-    const Exchange &exchange  = free_dofs.exchange();
-    const auto      product   = [&](const std::vector<double> &a, const std::vector<double> &b)
-    { return exchange.sum(dot(a, b)); };
-    Vector     displacement(free_dofs.n_dofs());
-    const auto respond = [&](const std::vector<double> &by_row)
-    {
-      Vector field(free_dofs.n_dofs());
-      gaps.add_forces(by_row, field);
-      exchange.assemble(field.begin(), 3);
-      std::vector<double> response;
-      free_dofs.gather(field, response);
-      follow(response);
-      field = 0.;
-      free_dofs.add(1., response, field);
-      return field;
-    };
-    const std::size_t   n = gaps.n_rows();
-    std::vector<double> all_missing(n), missing(n), forces(n), direction(n), gradient(n);
-    for (std::size_t r = 0; r < n; ++r)
-      all_missing[r] = carried_to * gaps.gap_of(r).width - gaps.gap_of(r).distance;
-    missing            = all_missing;
-    double last_square = 0.; // of the gradient in the same face; 0: a new face
-    for (unsigned int i = 0; i < max_push_steps; ++i)
-    {
-      double error = 0.;
-      for (std::size_t r = 0; r < n; ++r)
-      {
-        error       = std::max(error, missing[r] / gaps.gap_of(r).width);
-        gradient[r] = forces[r] > 0. || missing[r] > 0. ? missing[r] : 0.;
-      }
-      if (!(exchange.max(error) > carried_error))
-        break;
-      const double square = product(gradient, gradient);
-      const double ratio  = last_square > 0. ? square / last_square : 0.;
-      for (std::size_t r = 0; r < n; ++r)
-        direction[r] = gradient[r] + ratio * direction[r];
-      const Vector              response = respond(direction);
-      const std::vector<double> image    = gaps.changes(response);
-      const double              length   = product(gradient, direction) / product(direction, image);
-      if (!(length > 0.) || !std::isfinite(length))
-        break;
-      bool pulls = false;
-      for (std::size_t r = 0; r < n; ++r)
-      {
-        forces[r] += length * direction[r];
-        pulls |= forces[r] < 0.;
-        forces[r] = std::max(forces[r], 0.);
-      }
-      pulls       = exchange.any(pulls);
-      last_square = pulls ? 0. : square;
-      if (pulls)
-        displacement = respond(forces);
-      else
-        displacement.add(length, response);
-      const std::vector<double> changes = gaps.changes(displacement);
-      for (std::size_t r = 0; r < n; ++r)
-        missing[r] = all_missing[r] - changes[r];
-    }
-    if (getenv("DBG"))
-    {
-      double e = 0;
-      for (std::size_t r = 0; r < n; ++r)
-        e = std::max(e, missing[r] / gaps.gap_of(r).width);
-      fmt::print(stderr, "    push n {} error {}\n", n, e);
-    }
-    return displacement;
   }
 
   void

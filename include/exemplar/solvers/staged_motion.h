@@ -52,10 +52,6 @@ namespace Exemplar
     void
     carry(double now, const Vector &from, double time, Vector &to, const Follow &follow) const;
 
-    /// The displacement by which these gaps, of which some are closed, become as wide as half their widths.
-    Vector
-    push(const GapEnergies &gaps, const Follow &follow) const;
-
     /// Say who cannot pass whom on that way between these times [s].
     [[noreturn]] void
     refuse(double now, double time, const Vector &from, const Vector &way) const;
