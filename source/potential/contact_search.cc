@@ -469,8 +469,8 @@ namespace Exemplar
                        for (unsigned int i = 0; i < x.n; ++i)
                          x.places[i] += part * way[i];
                        const PairDistance at = distance(pair, x.places);
-                       // what is left of the way, beside the obstacle's point
-                       SpaceVector3 left = -(1. - part) * own_way_of(pair, at.nearest, of_obstacle);
+                       // what is left of the way, less all of that of the obstacle, which has stood
+                       SpaceVector3 left = -own_way_of(pair, at.nearest, of_obstacle);
                        for (unsigned int i = 0; i < x.n; ++i)
                          left += (1. - part) * at.nearest.a[i] * way[i];
                        contacts.push_back(contact(pair, x, at));
