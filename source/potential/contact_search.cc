@@ -382,6 +382,29 @@ namespace Exemplar
     return max_step(places_of(positions), places_of(end), 0., longest);
   }
 
+  std::vector<SpaceVector3>
+  ContactSearch::own_ways(const double time) const
+  {
+    if (!standing.obstacle->deforms())
+      return {};
+    std::vector<SpaceVector3> result = standing.obstacle->vertices(time);
+    for (std::size_t v = 0; v < result.size(); ++v)
+      result[v] -= standing.vertices[v];
+    return result;
+  }
+
+  namespace
+  {
+    double
+    longest_of(const std::vector<SpaceVector3> &ways)
+    {
+      double result = 0.;
+      for (const SpaceVector3 &way : ways)
+        result = std::max(result, way.norm());
+      return result;
+    }
+  } // namespace
+
   double
   ContactSearch::max_step_to(const double  time,
                              const Vector &positions,
@@ -389,19 +412,71 @@ namespace Exemplar
   {
     Vector end = positions;
     end += displacement;
-    const Obstacle    &obstacle = *standing.obstacle;
-    const ObstaclePose pose     = obstacle.pose(time);
+    const ObstaclePose pose = standing.obstacle->pose(time);
     const double       cosine
         = 0.5 * (trace(dealii::transpose(standing.pose.rotation) * pose.rotation) - 1.);
-    const double turn    = std::acos(std::clamp(cosine, -1., 1.));
-    double       own_way = 0.;
-    if (obstacle.deforms())
-    {
-      const std::vector<SpaceVector3> vertices = obstacle.vertices(time);
-      for (std::size_t v = 0; v < vertices.size(); ++v)
-        own_way = std::max(own_way, (vertices[v] - standing.vertices[v]).norm());
-    }
-    return max_step(places_of(positions), places_of(end, pose), own_way,
+    const double turn = std::acos(std::clamp(cosine, -1., 1.));
+    return max_step(places_of(positions), places_of(end, pose), longest_of(own_ways(time)),
                     turn > greatest_turn_at_once ? greatest_turn_at_once / turn : 1.);
+  }
+
+  SpaceVector3
+  ContactSearch::own_way_of(const ContactPair               &pair,
+                            const Nearest                   &nearest,
+                            const std::vector<SpaceVector3> &ways) const
+  {
+    SpaceVector3 result;
+    if (ways.empty())
+      return result;
+    const ObstacleShape &shape = standing.shape();
+    const auto           add   = [&](const auto &part)
+    {
+      for (std::size_t j = 0; j < part.size(); ++j)
+        result += nearest.b[j] * ways[part[j]];
+    };
+    if (pair.kind == PairKind::node_triangle)
+      add(shape.triangles[pair.of_obstacle]);
+    else if (pair.kind == PairKind::triangle_point)
+      result = ways[shape.points[pair.of_obstacle]];
+    else
+      add(shape.edges[pair.of_obstacle]);
+    return result;
+  }
+
+  void
+  ContactSearch::append_meeting(const double          time,
+                                const Vector         &from,
+                                const Vector         &to,
+                                std::vector<Contact> &contacts) const
+  {
+    if (standing.shape().vertices.empty())
+      return;
+    const ObstaclePose              pose   = standing.obstacle->pose(time);
+    const Places                    places = places_of(from), ends = places_of(to, pose);
+    const std::vector<SpaceVector3> of_obstacle = own_ways(time);
+    const double                    own_way     = longest_of(of_obstacle);
+    const dealii::Tensor<2, 3> turn = pose.rotation * dealii::transpose(standing.pose.rotation);
+    visit_candidates(places, ends, own_way + part_left * obstacles.width,
+                     [&](const ContactPair &pair)
+                     {
+                       PairCorners                 x = corners(pair, places);
+                       std::array<SpaceVector3, 3> way;
+                       for (unsigned int i = 0; i < x.n; ++i)
+                         way[i] = ends[x.nodes[i]] - x.places[i];
+                       const double part = max_step(pair, x.places, way, x.n, own_way, 1.);
+                       if (!(part < 1.))
+                         return;
+                       for (unsigned int i = 0; i < x.n; ++i)
+                         x.places[i] += part * way[i];
+                       const PairDistance at = distance(pair, x.places);
+                       // what is left of the way, less all of that of the obstacle, which has stood
+                       SpaceVector3 left = -own_way_of(pair, at.nearest, of_obstacle);
+                       for (unsigned int i = 0; i < x.n; ++i)
+                         left += (1. - part) * at.nearest.a[i] * way[i];
+                       contacts.push_back(contact(pair, x, at));
+                       Gap &gap = contacts.back().gap;
+                       gap.distance += at.normal * left;
+                       gap.normal = turn * gap.normal;
+                     });
   }
 } // namespace Exemplar

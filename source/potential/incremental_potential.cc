@@ -290,6 +290,19 @@ namespace Exemplar
     return all;
   }
 
+  std::vector<Gap>
+  IncrementalPotential::gaps_of_way(const double  now,
+                                    const double  time,
+                                    const Vector &from,
+                                    const Vector &to,
+                                    const double  range) const
+  {
+    std::vector<Gap> all;
+    for (const auto &term : terms)
+      term->append_gaps_of_way(now, time, from, to, range, all);
+    return all;
+  }
+
   void
   IncrementalPotential::move_to(const double time)
   {

@@ -117,6 +117,35 @@ namespace Exemplar
     }
   }
 
+  void
+  ObstacleTerm::append_gaps_of_way(const double      now,
+                                   const double      to_time,
+                                   const Vector     &from,
+                                   const Vector     &to,
+                                   const double      range,
+                                   std::vector<Gap> &gaps)
+  {
+    std::vector<std::pair<unsigned int, PairKey>> met;
+    std::vector<Contact>                          meeting;
+    for (unsigned int i = 0; i < standing.size(); ++i)
+      if (is_there(i))
+        search(i).append_meeting(to_time, from, to, meeting);
+    for (const Contact &contact : meeting)
+    {
+      met.emplace_back(contact.obstacle, contact.pair.key());
+      if (contact.gap.stiffness > 0.)
+        gaps.push_back(contact.gap);
+    }
+    std::sort(met.begin(), met.end());
+    move_to(to_time);
+    for (const Contact &contact : contacts(to, range))
+      if (contact.gap.stiffness > 0.
+          && !std::binary_search(met.begin(), met.end(),
+                                 std::pair(contact.obstacle, contact.pair.key())))
+        gaps.push_back(contact.gap);
+    move_to(now);
+  }
+
   double
   ObstacleTerm::max_step_to(const double  to_time,
                             const Vector &positions,

@@ -105,11 +105,10 @@ namespace Exemplar
     for (unsigned int stage = 1; stage <= max_stages; ++stage)
     {
       to = target;
-      potential.move_to(time);
-      carry(to, follow);
+      potential.move_to(now);
+      carry(now, at, time, to, follow);
       Vector way = to;
       way -= at;
-      potential.move_to(now);
       const double part = potential.max_step_to(time, at, way);
       if (part >= 1.)
       {
@@ -146,8 +145,140 @@ namespace Exemplar
     refuse(start, time, from, way);
   }
 
+  namespace
+  {
+    /// The displacement u = H U f of least work after which gaps d + U^T u are at least in the middle of their widths: forces f >= 0, and 0
+    /// where a gap is wider than that. Conjugate gradients, which begin anew where a force would pull; gaps of which several push the
+    /// same nodes may make U^T H U singular.
+    class LeastPush
+    {
+    public:
+      LeastPush(const GapEnergies          &gaps,
+                const FreeDofs             &free_dofs,
+                const StagedMotion::Follow &follow)
+          : gaps(gaps), free_dofs(free_dofs), follow(follow), missing(missing_after(Vector())),
+            forces(missing.size()), direction(missing.size()), displacement(free_dofs.n_dofs())
+      {
+      }
+
+      Vector
+      find()
+      {
+        for (unsigned int i = 0; i < max_push_steps; ++i)
+        {
+          const std::vector<double> gradient = missing_where_pushed();
+          if (!is_wrong(gradient) || !improve(gradient))
+            break;
+          missing = missing_after(displacement);
+        }
+        return displacement;
+      }
+
+    private:
+      /// Of the middle of the widths, after a displacement or none.
+      std::vector<double>
+      missing_after(const Vector &by) const
+      {
+        std::vector<double> result(gaps.n_rows());
+        if (by.size() > 0)
+          result = gaps.changes(by);
+        for (std::size_t r = 0; r < result.size(); ++r)
+          result[r] = carried_to * gaps.gap_of(r).width - gaps.gap_of(r).distance - result[r];
+        return result;
+      }
+
+      std::vector<double>
+      missing_where_pushed() const
+      {
+        std::vector<double> result = missing;
+        for (std::size_t r = 0; r < result.size(); ++r)
+          if (!(forces[r] > 0.))
+            result[r] = std::max(result[r], 0.);
+        return result;
+      }
+
+      bool
+      is_wrong(const std::vector<double> &gradient) const
+      {
+        double error = 0.;
+        for (std::size_t r = 0; r < gradient.size(); ++r)
+          error = std::max(error, std::abs(gradient[r]) / gaps.gap_of(r).width);
+        return free_dofs.exchange().max(error) > carried_error;
+      }
+
+      /// Whether there was a step that does.
+      bool
+      improve(const std::vector<double> &gradient)
+      {
+        const double square = product(gradient, gradient);
+        const double ratio  = last_square > 0. ? square / last_square : 0.;
+        for (std::size_t r = 0; r < direction.size(); ++r)
+          direction[r] = gradient[r] + ratio * direction[r];
+        const Vector response = response_to(direction);
+        const double length
+            = product(gradient, direction) / product(direction, gaps.changes(response));
+        if (!(length > 0.) || !std::isfinite(length))
+          return false;
+        add(forces, length, direction);
+        if (free_dofs.exchange().any(drop_pulls()))
+        {
+          displacement = response_to(forces);
+          last_square  = 0.;
+          return true;
+        }
+        displacement.add(length, response);
+        last_square = square;
+        return true;
+      }
+
+      /// Whether there were some.
+      bool
+      drop_pulls()
+      {
+        bool result = false;
+        for (double &force : forces)
+        {
+          result |= force < 0.;
+          force = std::max(force, 0.);
+        }
+        return result;
+      }
+
+      Vector
+      response_to(const std::vector<double> &by_row) const
+      {
+        Vector field(free_dofs.n_dofs());
+        gaps.add_forces(by_row, field);
+        free_dofs.exchange().assemble(field.begin(), 3);
+        std::vector<double> response;
+        free_dofs.gather(field, response);
+        follow(response);
+        field = 0.;
+        free_dofs.add(1., response, field);
+        return field;
+      }
+
+      double
+      product(const std::vector<double> &a, const std::vector<double> &b) const
+      {
+        return free_dofs.exchange().sum(dot(a, b));
+      }
+
+      const GapEnergies          &gaps;
+      const FreeDofs             &free_dofs;
+      const StagedMotion::Follow &follow;
+      std::vector<double>         missing, forces, direction; ///< by row
+      Vector                      displacement;
+      double last_square = 0.; ///< of the gradient, if the direction goes on from that
+    };
+  } // namespace
+
   void
-  StagedMotion::carry(Vector &to, const Follow &follow) const
+  StagedMotion::carry(const double  now,
+                      const Vector &from,
+                      const double  time,
+                      Vector       &to,
+                      const Follow &follow) const
   {
     const FreeDofs &free_dofs = potential.get_free_dofs();
     const Exchange &exchange  = free_dofs.exchange();
@@ -167,7 +298,7 @@ namespace Exemplar
       bool   is_more    = false;
       Vector difference = to;
       difference -= predicted;
-      for (const Gap &gap : potential.gaps(to, overtaken))
+      for (const Gap &gap : potential.gaps_of_way(now, time, from, to, overtaken))
         if (gap.stiffness > 0. && is_free(gap))
         {
           carried.push_back(gap);
@@ -177,57 +308,8 @@ namespace Exemplar
       if (!exchange.any(is_more))
         return;
       to = predicted;
-      to += push(GapEnergies(carried), follow);
+      to += LeastPush(GapEnergies(carried), free_dofs, follow).find();
     }
-  }
-
-  Vector
-  StagedMotion::push(const GapEnergies &gaps, const Follow &follow) const
-  {
-    // U^T H U forces = missing, by conjugate gradients; nodes that several gaps push may make it singular
-    const FreeDofs &free_dofs = potential.get_free_dofs();
-    const Exchange &exchange  = free_dofs.exchange();
-    const auto      product   = [&](const std::vector<double> &a, const std::vector<double> &b)
-    { return exchange.sum(dot(a, b)); };
-    std::vector<double> missing(gaps.n_rows()), moved(free_dofs.size());
-    double              error         = 0.;
-    const auto          measure_error = [&]
-    {
-      error = 0.;
-      for (std::size_t r = 0; r < missing.size(); ++r)
-        error = std::max(error, std::abs(missing[r]) / gaps.gap_of(r).width);
-      error = exchange.max(error);
-    };
-    for (std::size_t r = 0; r < missing.size(); ++r)
-      missing[r] = carried_to * gaps.gap_of(r).width - gaps.gap_of(r).distance;
-    measure_error();
-    std::vector<double> forces  = missing;
-    double              squared = product(missing, missing);
-    for (unsigned int i = 0; i < max_push_steps && error > carried_error; ++i)
-    {
-      Vector field(free_dofs.n_dofs());
-      gaps.add_forces(forces, field);
-      exchange.assemble(field.begin(), 3);
-      std::vector<double> response;
-      free_dofs.gather(field, response);
-      follow(response);
-      field = 0.;
-      free_dofs.add(1., response, field);
-      const std::vector<double> image  = gaps.changes(field);
-      const double              length = squared / product(forces, image);
-      if (!(length > 0.) || !std::isfinite(length))
-        break;
-      add(missing, -length, image);
-      add(moved, length, response);
-      measure_error();
-      const double next = product(missing, missing), ratio = next / squared;
-      squared = next;
-      for (std::size_t r = 0; r < forces.size(); ++r)
-        forces[r] = missing[r] + ratio * forces[r];
-    }
-    Vector displacement(free_dofs.n_dofs());
-    free_dofs.add(1., moved, displacement);
-    return displacement;
   }
 
   void

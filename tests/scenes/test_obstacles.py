@@ -86,6 +86,59 @@ class Obstacles(ObstacleTest):
                     self.assertGreater(max(row["contact_floor_z"] for row in rows), WEIGHT)
                     self.assertGreater(max(row["contact_pairs"] for row in rows), 0)
 
+    def test_what_stands_is_not_passed_while_something_else_moves(self):
+        without_floor = {key: value for key, value in BAR.items() if "floor" not in key}
+        for step in ("box -1 -2 -2  1 2 -1", "box -1 -2 -2  1 2 -0.5", "sphere 1 0 -2 1", "capsule 1 -2 -2  1 2 -2  1",
+                     "plane 0 0 -1  0 0 1", "inside box -5 -5 -1  6 5 5"):
+            with self.subTest(step):
+                rows = read_csv(self.solve({
+                    **without_floor, "Mesh/Box size": "4, 1, 1", "Mesh/Box cells": "8, 2, 2", "Obstacles/Names": "step, roller",
+                    "Obstacles/step/Shape": step, "Obstacles/roller/Shape": "sphere 3 0 -2 0.5",
+                    "Obstacles/roller/Motion": "-t; 0; 0", "Time/End": "0.4"}))
+                self.assertGreater(min(row["least_gap"] for row in rows), 0)
+                self.assertGreater(max(row["contact_step_z"] for row in rows), 1000 * G)
+
+    def test_a_handle_moves_a_static_body_onto_every_shape(self):
+        static = {"Scene": "static", "Mesh/Generator": "box", "Mesh/Box size": "3, 1, 1", "Mesh/Box cells": "12, 4, 4",
+                  "Material/Young's modulus": "1e5", "Material/Density": "900", "Loads/Gravity": "0, 0, -0.5", "Handles/Names": "hand",
+                  "Handles/hand/Select": "box -1 -1 -1  0.01 1 1", "Handles/hand/Motion": "0; 0; -0.02*t", "Obstacles/Names": "thing"}
+        for more in ({"Obstacles/thing/Shape": "box -2 -2 -3  6 2 -0.56"}, {"Obstacles/thing/Shape": "box 1 -1 -1  4 1 -0.56"},
+                     {"Obstacles/thing/Shape": "sphere 2.5 0 -1.56 1"}, {"Obstacles/thing/Shape": "capsule 2.5 -2 -1.56  2.5 2 -1.56  1"},
+                     {"Obstacles/thing/Shape": "sphere 2.5 0 -1.56 1", "Model/Element": "P2", "Mesh/Box cells": "6, 2, 2",
+                      "Handles/hand/Motion": "0; 0; -1e-5*t"},
+                     {"Obstacles/thing/Shape": "box 1 -1 -1  4 1 -0.56", "Obstacles/Distance": "0.05", "Mesh/Box cells": "6, 2, 2",
+                      "Handles/hand/Motion": "0; 0; -0.06*t"},
+                     {"Obstacles/thing/Shape": "surface tent.obj", "Obstacles/thing/Motion": "0; 0; -0.36"}):
+            with self.subTest(**more):
+                rows = read_csv(self.solve({**static, **more, "Time/Increments": "2"}))
+                self.assertGreater(min(row["least_gap"] for row in rows), 0)
+                self.assertGreater(rows[-1]["contact_thing_z"], 0)
+
+    def test_a_surface_that_deforms_carries_a_static_body_as_one_that_moves(self):
+        ridge = lambda z: TENT.replace("0.43 -1.5 -0.2", f"0.43 -1.5 {z}").replace("0.43 1.5 -0.2", f"0.43 1.5 {z}")
+        self.write("rig_0000.obj", ridge(-0.11))
+        self.write("rig_0001.obj", ridge(-0.01))
+        static = {"Scene": "static", "Mesh/Generator": "box", "Mesh/Box size": "1, 0.2, 0.2", "Mesh/Box cells": "10, 2, 2",
+                  "Material/Young's modulus": "1e5", "Loads/Gravity": "0, 0, -0.1", "Handles/Names": "hand",
+                  "Handles/hand/Select": "box -1 -1 -1  0.01 1 1",
+                  "Obstacles/Names": "thing", "Obstacles/thing/Shape": "surface rig_0000.obj", "Time/Increments": "1"}
+        forces = []
+        for name, more in (("rigid", {"Obstacles/thing/Motion": "0; 0; 0.1*t"}),
+                           ("deforms", {"Obstacles/thing/Follow cache": "rig_*.obj", "Obstacles/thing/Frames per second": "1"})):
+            rows = read_csv(self.solve({**static, **more}, output=name))
+            self.assertGreater(rows[-1]["least_gap"], 0)
+            forces.append(rows[-1]["contact_thing_z"])
+        self.assertGreater(forces[0], 1)
+        self.assertLess(abs(forces[1] / forces[0] - 1), 0.01)
+
+    def test_a_handle_that_is_driven_into_a_box_is_told_in_words(self):
+        run = self.attempt({"Scene": "static", "Mesh/Generator": "box", "Mesh/Box size": "3, 1, 1", "Mesh/Box cells": "6, 2, 2",
+                            "Material/Young's modulus": "1e5", "Handles/Names": "hand", "Handles/hand/Select": "box -1 -1 -1  0.01 1 1",
+                            "Handles/hand/Motion": "0; 0; -0.2*t", "Obstacles/Names": "thing",
+                            "Obstacles/thing/Shape": "box -2 -2 -3  6 2 -0.56", "Time/Increments": "1"})
+        self.assertEqual(run.status, 2)
+        self.assertIn("handle 'hand' and the obstacle 'thing' meet", run.stderr)
+
     def test_an_edge_between_nodes_bears(self):
         # a beam on its edge under the middle of long cells: nodes alone would let it in by half a cell
         output = self.solve({**BAR, "Mesh/Box cells": "2, 1, 1", "Obstacles/floor/Shape": SHAPES["beam"].replace("0.45", "0.2")

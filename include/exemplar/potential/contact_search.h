@@ -140,6 +140,15 @@ namespace Exemplar
     double
     max_step_to(double time, const Vector &positions, const Vector &displacement) const;
 
+    /// Append the pairs that meet while nodes go straight from positions to others, in the obstacle's axes, and the obstacle goes on to where it is at this
+    /// time [s]: with the distance at the end from the plane of the place where they meet, negative there. Half spaces do not
+    /// count: their distance has a sign everywhere.
+    void
+    append_meeting(double                time,
+                   const Vector         &from,
+                   const Vector         &to,
+                   std::vector<Contact> &contacts) const;
+
     PairCorners
     corners(const ContactPair &pair, const Places &places) const;
 
@@ -161,6 +170,16 @@ namespace Exemplar
     {
       return places_of(positions, standing.pose);
     }
+
+    /// How far the obstacle's vertices go in its axes until this time [s]; empty where it does not deform.
+    std::vector<SpaceVector3>
+    own_ways(double time) const;
+
+    /// How far its nearest point does.
+    SpaceVector3
+    own_way_of(const ContactPair               &pair,
+               const Nearest                   &nearest,
+               const std::vector<SpaceVector3> &ways) const;
 
     /// The part of the way from `places` to `ends` that may be gone beside an obstacle whose vertices go `own_way` [m] in its axes, at
     /// most; `longest` at most.

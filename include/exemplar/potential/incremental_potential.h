@@ -161,6 +161,10 @@ namespace Exemplar
     std::vector<Gap>
     gaps(const Vector &positions, double range) const;
 
+    /// PotentialTerm::append_gaps_of_way() of all terms, of this process.
+    std::vector<Gap>
+    gaps_of_way(double now, double time, const Vector &from, const Vector &to, double range) const;
+
     /// Obstacles stand where they are at a time [s] within the step.
     void
     move_to(double time);

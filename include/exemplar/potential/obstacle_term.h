@@ -100,6 +100,14 @@ namespace Exemplar
     append_gaps(const Vector &positions, double range, std::vector<Gap> &gaps) const override;
 
     void
+    append_gaps_of_way(double            now,
+                       double            to_time,
+                       const Vector     &from,
+                       const Vector     &to,
+                       double            range,
+                       std::vector<Gap> &gaps) override;
+
+    void
     add(const TermPoint &at, ElasticSums &sums) override;
 
     void

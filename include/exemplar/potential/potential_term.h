@@ -200,6 +200,22 @@ namespace Exemplar
     {
     }
 
+    /// Append the gaps of free and held nodes that go straight from positions where all are open to others, while obstacles go from where
+    /// they are at `now` to where they are at `time` [s]: gaps at the end of these ways, below `range` times their width, negative and with the
+    /// normals of the place where they meet for what meets. Called and left with obstacles at `now`.
+    virtual void
+    append_gaps_of_way(double now,
+                       double time,
+                       const Vector & /*from*/,
+                       const Vector     &to,
+                       double            range,
+                       std::vector<Gap> &gaps)
+    {
+      move_to(time);
+      append_gaps(to, range, gaps);
+      move_to(now);
+    }
+
     /// Obstacles stand from now on where they are at this time [s] within a step; set_time() moves them to its end.
     virtual void
     move_to(double /*time*/)

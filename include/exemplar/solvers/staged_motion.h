@@ -48,13 +48,9 @@ namespace Exemplar
     void
     go(double part, double time, const Vector &way, Vector &at, double &now) const;
 
-    /// Put what is overtaken by obstacles where they stand into the middle of its gaps' widths.
+    /// Put what obstacles would overtake on the way from `from`, where they stand `now`, to `to` at `time` [s], into the middle of its gaps' widths.
     void
-    carry(Vector &to, const Follow &follow) const;
-
-    /// The displacement by which these gaps, of which some are closed, become as wide as half their widths.
-    Vector
-    push(const GapEnergies &gaps, const Follow &follow) const;
+    carry(double now, const Vector &from, double time, Vector &to, const Follow &follow) const;
 
     /// Say who cannot pass whom on that way between these times [s].
     [[noreturn]] void

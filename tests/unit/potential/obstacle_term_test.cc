@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -342,6 +343,44 @@ namespace Exemplar::Testing
       const double part = above.term->max_step(above.problem.state.positions, way);
       EXPECT_GT(part, 0.85);
       EXPECT_LT(part, 0.95);
+    }
+  }
+
+  TEST(ObstacleTerm, AWayThroughAShapeEndsBehindIt)
+  {
+    const auto distances = [](const std::vector<Gap> &gaps)
+    {
+      std::vector<double> result;
+      for (const Gap &gap : gaps)
+        result.push_back(gap.distance);
+      return result;
+    };
+    for (std::string shape : shapes)
+    {
+      if (shape.substr(0, 3) == "box")
+        shape = "box 1.2 -0.3 -0.8 2.7 1 -0.75"; // thinner than the way is long
+      Above        at_rest(shape), moved(shape, { "Obstacles/it/Motion=0; 0; 0.6*t" });
+      Vector       lowered = at_rest.lowered(0., 1);
+      const Vector start   = lowered;
+      for (unsigned int dof = 2; dof < lowered.size(); dof += 3)
+        lowered[dof] -= 0.6;
+      std::vector<Gap> of_body, of_obstacle;
+      at_rest.term->append_gaps_of_way(0., 0., start, lowered, 0.45, of_body);
+      moved.term->append_gaps_of_way(0., 1., start, start, 0.45, of_obstacle);
+      const std::vector<double> first = distances(of_body), second = distances(of_obstacle);
+      ASSERT_GT(first.size(), 0u) << shape;
+      ASSERT_EQ(first.size(), second.size()) << shape;
+      for (std::size_t i = 0; i < first.size(); ++i)
+        EXPECT_NEAR(first[i], second[i], 1e-9) << shape;
+      const double least = *std::min_element(first.begin(), first.end());
+      EXPECT_LT(least, -0.25) << shape;
+      EXPECT_GT(least, -0.7) << shape;
+      // it has been left where it was, and what meets nothing has the gaps of its end
+      std::vector<Gap> there, of_short_way;
+      const Vector     near = at_rest.lowered(0.1, 1);
+      moved.term->append_gaps(near, 0.9, there);
+      moved.term->append_gaps_of_way(0., 0., start, near, 0.9, of_short_way);
+      EXPECT_EQ(distances(there), distances(of_short_way)) << shape;
     }
   }
 
