@@ -137,6 +137,23 @@ namespace Exemplar::Testing
       }
     }
 
+    // With the flow g = |p - p_n| heat is what the yield stress and the viscosity resist with, times it; the potential, of which
+    // the flow minimises the sum with the energy, is the integral of that.
+    TEST(PlasticFlow, HeatIsTheResistanceTimesTheFlow)
+    {
+      unsigned int n_flowing = 0;
+      for (const Case &one : cases())
+      {
+        const Flow   flow = one.flow();
+        const double g    = norm(combine(1., flow.strain(), -1., one.p_n));
+        const double v    = one.constants.viscosity / one.step_size;
+        EXPECT_NEAR(flow.dissipation(), (root * one.constants.yield_stress + v * g) * g, 1e-14);
+        EXPECT_NEAR(flow.dissipation_potential(), flow.dissipation() - 0.5 * v * g * g, 1e-14);
+        n_flowing += g > 0. && v > 0.;
+      }
+      EXPECT_GT(n_flowing, 10u);
+    }
+
     TEST(PlasticFlow, NothingFlowsBetweenSteps)
     {
       for (Case one : cases())
