@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/exemplar.h>
 #include <exemplar/live/keyed_shapes.h>
+#include <exemplar/mesh/mesh_arrays.h>
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/surface/shape/triangle_surface.h>
+#include <exemplar/surface/shape/vertex_normals.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -86,7 +88,7 @@ namespace Exemplar::Live
       return result;
     }
 
-    using Triangles = std::vector<std::array<std::size_t, 3>>;
+    using Triangles = std::vector<std::vector<unsigned int>>;
 
     /// Triangles of all surfaces, by numbers of vertices in lists of places.
     Triangles
@@ -95,48 +97,24 @@ namespace Exemplar::Live
       Triangles triangles;
       for (const MovingSurface &moving : surfaces)
         for (const auto &triangle : triangulate(moving.surface).triangles)
-          triangles.push_back(
-              { { moving.first_in_list + triangle[0], moving.first_in_list + triangle[1],
-                  moving.first_in_list + triangle[2] } });
+        {
+          triangles.emplace_back(triangle.begin(), triangle.end());
+          for (unsigned int &vertex : triangles.back())
+            vertex += static_cast<unsigned int>(moving.first_in_list);
+        }
       return triangles;
     }
 
-    /// Unit normals at the vertices: means over the triangles, weighted by their angles.
     Places
     normals_of(const Triangles &triangles, const Places &places)
     {
-      Places normals(places.size());
-      for (const auto &triangle : triangles)
-      {
-        std::array<Point, 3> x;
-        for (unsigned int i = 0; i < 3; ++i)
-          x[i] = places[triangle[i]];
-        const Tensor1 normal = dealii::cross_product_3d(x[1] - x[0], x[2] - x[0]);
-        if (!(normal.norm() > 0.))
-          continue;
-        for (unsigned int i = 0; i < 3; ++i)
-        {
-          const Tensor1 a = x[(i + 1) % 3] - x[i], b = x[(i + 2) % 3] - x[i];
-          const double  angle = std::atan2(dealii::cross_product_3d(a, b).norm(), a * b);
-          normals[triangle[i]] += angle / normal.norm() * normal;
-        }
-      }
-      for (Point &normal : normals)
-        normal = normal.norm() > 0. ? Point(normal / normal.norm()) : Point(0., 0., 1.);
+      std::vector<SpaceVector> vertices;
+      for (const Point &x : places)
+        vertices.push_back({ { x[0], x[1], x[2] } });
+      Places normals;
+      for (const SpaceVector &normal : vertex_normals(triangles, vertices))
+        normals.emplace_back(normal[0], normal[1], normal[2]);
       return normals;
-    }
-
-    double
-    diagonal_of_box(const Places &places)
-    {
-      Point lowest = places.front(), highest = lowest;
-      for (const Point &place : places)
-        for (unsigned int c = 0; c < 3; ++c)
-        {
-          lowest[c]  = std::min(lowest[c], place[c]);
-          highest[c] = std::max(highest[c], place[c]);
-        }
-      return lowest.distance(highest);
     }
 
     using Rows = dealii::FullMatrix<double>; ///< a frame's places a row
@@ -333,7 +311,7 @@ namespace Exemplar::Live
       return best_rigid_motion(body_at_rest, { places.begin(), places.begin() + n_of_body });
     };
     shapes.n_examples = motion.examples.size();
-    shapes.diagonal   = diagonal_of_box(body_at_rest);
+    shapes.diagonal   = box_diagonal(body_at_rest);
     shapes.rest       = rounded(motion.rest);
 
     const unsigned int n_frames = motion.frames.size();

@@ -13,13 +13,6 @@ namespace Exemplar::Live
       return gravity.norm() > 0. ? -gravity / gravity.norm() : SpaceVector3({ 0., 0., 1. });
     }
 
-    bool
-    stays(const ObstacleParameters &obstacle)
-    {
-      const ObstacleParameters usual;
-      return obstacle.motion == usual.motion && obstacle.turn == usual.turn
-             && obstacle.from == usual.from && obstacle.until == usual.until;
-    }
   } // namespace
 
   Floor::Floor(const Problem &problem)
@@ -30,7 +23,7 @@ namespace Exemplar::Live
     {
       const ObstacleShape &shape = obstacles->all[i].shape();
       if (shape.half_spaces.size() == 1 && shape.half_spaces[0].normal * up > 1. - 1e-12
-          && stays(problem.parameters.obstacles.named[i]))
+          && obstacles->all[i].is_always_there() && problem.parameters.obstacles.named[i].stays())
       {
         level    = shape.middle * up + shape.half_spaces[0].offset;
         obstacle = i;

@@ -174,19 +174,29 @@ namespace Exemplar::Live
     return frames;
   }
 
+  namespace
+  {
+    std::vector<double>
+    places_in_text(const fs::path &file, const std::string &text)
+    {
+      std::vector<double> places = array_in<double>(file, text, "Points");
+      require_places(file, places);
+      return places;
+    }
+  } // namespace
+
   std::vector<double>
   places_in(const fs::path &file)
   {
-    std::vector<double> places = array_in<double>(file, text_of_file(file), "Points");
-    require_places(file, places);
-    return places;
+    return places_in_text(file, text_of_file(file));
   }
 
   std::vector<double>
   rest_places_in(const fs::path &file)
   {
-    std::vector<double>       places = places_in(file);
-    const std::vector<double> moved  = array_in<double>(file, text_of_file(file), "displacement");
+    const std::string         text   = text_of_file(file);
+    std::vector<double>       places = places_in_text(file, text);
+    const std::vector<double> moved  = array_in<double>(file, text, "displacement");
     if (moved.size() != places.size())
       refuse(file, "its points have other displacements");
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -200,7 +210,7 @@ namespace Exemplar::Live
   {
     const std::string text         = text_of_file(file);
     const auto        connectivity = array_in<std::int32_t>(file, text, "connectivity");
-    const std::size_t n_points     = places_in(file).size() / 3;
+    const std::size_t n_points     = places_in_text(file, text).size() / 3;
     std::vector<std::vector<unsigned int>> polygons;
     std::size_t                            begin = 0;
     for (const std::int32_t end : array_in<std::int32_t>(file, text, "offsets"))

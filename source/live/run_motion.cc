@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <sstream>
 
 namespace Exemplar::Live
@@ -120,6 +121,17 @@ namespace Exemplar::Live
       return table;
     }
 
+    /// The examples' names in summary.json, a list; null without.
+    nlohmann::json
+    names_in(const fs::path &summary)
+    {
+      if (std::error_code none; !fs::is_regular_file(summary, none)) // a pipe would block
+        return {};
+      const auto json = nlohmann::json::parse(read_text_file(summary).value_or(""), nullptr, false);
+      const auto names = json.is_object() ? json.find("example_names") : json.end();
+      return names != json.end() && names->is_array() ? *names : nlohmann::json();
+    }
+
     /// What a run's directory holds.
     class RunReader
     {
@@ -127,7 +139,7 @@ namespace Exemplar::Live
       explicit RunReader(const fs::path &directory)
           : files{ directory }, scene(files.parameters_prm(), {}),
             parameters(scene.get_parameters()), axis(make_time_axis(parameters)),
-            table(weights_in(files.statistics()))
+            table(weights_in(files.statistics())), example_names(names_in(files.summary()))
       {
         motion.z_is_up = playback_of(parameters, axis).z_is_up;
       }
@@ -144,6 +156,15 @@ namespace Exemplar::Live
       }
 
     private:
+      /// What poses in files are held against.
+      struct Inputs
+      {
+        std::map<std::string, std::string> digests;
+        MshFile                            final_pose;
+      };
+
+      Inputs
+      read_inputs() const;
       void
       read_surfaces();
       void
@@ -155,7 +176,7 @@ namespace Exemplar::Live
       void
       add_poses(const std::vector<std::size_t> &kept);
       Places
-      pose_of_boundary(std::size_t column, const std::vector<unsigned int> &nodes) const;
+      pose_of_boundary(std::size_t column, const std::vector<unsigned int> &nodes);
       SurfaceMesh
       shape(const std::string &name, const std::string &carried) const;
       std::vector<unsigned int>
@@ -168,7 +189,9 @@ namespace Exemplar::Live
       const SceneParameters &parameters;
       const TimeAxis         axis;
       const WeightTable      table;
-      std::vector<Places>    poses; ///< by column of the table; empty: not on disk
+      const nlohmann::json   example_names; ///< a list, or null
+      std::vector<Places>    poses;         ///< by column of the table; empty: not on disk
+      std::optional<Inputs>  inputs;        ///< once a pose is looked for in its file
       RunMotion              motion;
     };
 
@@ -273,11 +296,18 @@ namespace Exemplar::Live
       add_poses(all);
     }
 
+    RunReader::Inputs
+    RunReader::read_inputs() const
+    {
+      require_run_file(files.checkpoint());
+      require_run_file(files.final_pose());
+      return { load_checkpoint(files.checkpoint()).input_digests, read_msh(files.final_pose()) };
+    }
+
     /// The pose of a weight at the nodes of the boundary; empty if it is in no file that has the
     /// run's nodes. Throws UserError for a file that has changed since the run.
     Places
-    RunReader::pose_of_boundary(const std::size_t                column,
-                                const std::vector<unsigned int> &nodes) const
+    RunReader::pose_of_boundary(const std::size_t column, const std::vector<unsigned int> &nodes)
     {
       const auto       &examples = parameters.examples;
       const std::size_t first    = examples.include_rest_pose ? 1 : 0;
@@ -292,14 +322,13 @@ namespace Exemplar::Live
         return {};
       if (std::error_code none; !fs::is_regular_file(name, none))
         throw UserError(in_quotes(name) + " is missing, an example of the run. Bring it back.");
-      require_run_file(files.checkpoint());
-      require_run_file(files.final_pose());
-      const auto        digests = load_checkpoint(files.checkpoint()).input_digests;
-      const std::string digest  = sha256(name);
-      if (std::none_of(digests.begin(), digests.end(),
+      if (!inputs)
+        inputs = read_inputs();
+      const std::string digest = sha256(name);
+      if (std::none_of(inputs->digests.begin(), inputs->digests.end(),
                        [&](const auto &known) { return known.second == digest; }))
         throw UserError(in_quotes(name) + " has changed since the run." + run_again);
-      const auto found = read_pose(name, read_msh(files.final_pose()), files.final_pose().string());
+      const auto found = read_pose(name, inputs->final_pose, files.final_pose().string());
       Places     pose;
       for (const unsigned int node : nodes)
       {
@@ -377,18 +406,12 @@ namespace Exemplar::Live
     RunReader::name_of_example(const std::string &column) const
     {
       // weight_I, or weight_R_I of region R
-      const auto      words = split_trimmed(column, '_');
-      const auto      i     = decimal_number<std::size_t>(words.back());
-      std::error_code none;
-      if (!i || !fs::is_regular_file(files.summary(), none)) // a pipe would block
+      const auto words = split_trimmed(column, '_');
+      const auto i     = decimal_number<std::size_t>(words.back());
+      if (!i || *i >= example_names.size() || !example_names[*i].is_string())
         return column;
-      const auto text  = read_text_file(files.summary()).value_or("");
-      const auto json  = nlohmann::json::parse(text, nullptr, false);
-      const auto names = json.is_object() ? json.find("example_names") : json.end();
-      if (names == json.end() || !names->is_array() || *i >= names->size()
-          || !(*names)[*i].is_string())
-        return column;
-      return (*names)[*i].get<std::string>() + (words.size() > 2 ? " in region " + words[1] : "");
+      return example_names[*i].get<std::string>()
+             + (words.size() > 2 ? " in region " + words[1] : "");
     }
 
     /// Take over the poses of these columns that are not rest's.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/time_samples.h>
 #include <exemplar/obstacles/box_tree.h>
 #include <exemplar/obstacles/obstacle.h>
 #include <exemplar/surface/shape/triangle_surface.h>
@@ -130,13 +131,7 @@ namespace Exemplar
   {
     if (!deforms())
       return own_shape.vertices;
-    const std::vector<double> &times = track.times;
-    const auto after = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time)
-                                                - times.begin());
-    const std::size_t last   = times.size() - 1;
-    const std::size_t before = after == 0 ? 0 : after - 1, next = std::min(after, last);
-    const double      share
-        = next > before ? (time - times[before]) / (times[next] - times[before]) : 0.;
+    const auto [before, next, share] = samples_around(track.times, time);
     std::vector<SpaceVector3> result;
     for (std::size_t v = 0; v < track.samples[before].size(); ++v)
     {

@@ -83,6 +83,14 @@ namespace Exemplar
                       + "/From = " + shortest_text(from) + ": the obstacle would never be there.");
   }
 
+  bool
+  ObstacleParameters::stays() const
+  {
+    const ObstacleParameters usual;
+    return motion == usual.motion && turn == usual.turn && follow_cache.empty()
+           && follow_track.empty();
+  }
+
   HoldingTime
   ObstacleParameters::time() const
   {

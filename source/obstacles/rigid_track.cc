@@ -3,6 +3,7 @@
 #include <exemplar/base/missing_file.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/text_file.h>
+#include <exemplar/base/time_samples.h>
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/obstacles/rigid_track.h>
 
@@ -18,7 +19,29 @@ namespace Exemplar
   {
     constexpr std::size_t n_of_vectors = 7, n_of_matrix = 13; ///< numbers of a line
 
-    /// What is wrong with a line of numbers after these times; empty: nothing.
+    Matrix3<double>
+    matrix_in(const std::vector<double> &n)
+    {
+      Matrix3<double> R{};
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          R[i][j] = n[1 + 4 * i + j];
+      return R;
+    }
+
+    /// What keeps a matrix from being a rotation; empty: nothing.
+    std::string
+    fault_of_rotation(const Matrix3<double> &R)
+    {
+      const Matrix3<double> C = transpose_times(R, R);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          if (!(std::abs(C[i][j] - (i == j ? 1. : 0.)) < 1e-4))
+            return "its matrix R stretches. Only rotations are rigid";
+      return determinant(R) < 0. ? "its matrix R mirrors. Only rotations are rigid" : "";
+    }
+
+    /// What is wrong with a line of numbers, of which the one before has `n_wanted` and an earlier time; empty: nothing.
     std::string
     fault_of_line(const std::vector<double> &n, const std::size_t n_wanted, const double before)
     {
@@ -30,32 +53,14 @@ namespace Exemplar
         return "all of it must be finite numbers";
       if (!(n[0] > before))
         return "t must be later than in the line before";
-      return "";
-    }
-
-    /// The rotation of a matrix (R p) after t. Throws std::invalid_argument for one that stretches or mirrors.
-    Matrix3<double>
-    rotation_of(const std::vector<double> &n)
-    {
-      Matrix3<double> R{};
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          R[i][j] = n[1 + 4 * i + j];
-      const Matrix3<double> C = transpose_times(R, R);
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          if (!(std::abs(C[i][j] - (i == j ? 1. : 0.)) < 1e-4))
-            throw std::invalid_argument("its matrix R stretches. Only rotations are rigid");
-      if (determinant(R) < 0.)
-        throw std::invalid_argument("its matrix R mirrors. Only rotations are rigid");
-      return R;
+      return n.size() == n_of_matrix ? fault_of_rotation(matrix_in(n)) : "";
     }
 
     /// The frame of a line with a matrix, with a rotation vector that is near that of the frame before.
     RigidTrack::Frame
     frame_of_matrix(const std::vector<double> &n, const RigidTrack::Frame &before)
     {
-      const AxisAngle      turn = axis_and_angle(rotation_of(n));
+      const AxisAngle      turn = axis_and_angle(matrix_in(n));
       dealii::Tensor<1, 3> last, vector = turn.angle * turn.axis;
       for (unsigned int c = 0; c < 3; ++c)
         last[c] = before[3 + c];
@@ -72,11 +77,7 @@ namespace Exemplar
   RigidTrack::Frame
   RigidTrack::at(const double time) const
   {
-    const auto after = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), time)
-                                                - times.begin());
-    const std::size_t next = std::min(after, times.size() - 1), before = after == 0 ? 0 : after - 1;
-    const double      share
-        = next > before ? (time - times[before]) / (times[next] - times[before]) : 0.;
+    const auto [before, next, share] = samples_around(times, time);
     Frame result;
     for (unsigned int i = 0; i < result.size(); ++i)
       result[i] = (1. - share) * frames[before][i] + share * frames[next][i];
@@ -107,28 +108,19 @@ namespace Exemplar
         n.push_back(parse_number(word));
       if (n.empty())
         continue;
-      n_wanted          = track.times.empty() ? n.size() : n_wanted;
-      std::string fault = fault_of_line(
-          n, n_wanted,
-          track.times.empty() ? -std::numeric_limits<double>::infinity() : track.times.back());
-      const bool              is_matrix = n.size() == n_of_matrix;
-      const RigidTrack::Frame before
-          = track.frames.empty() ? RigidTrack::Frame{} : track.frames.back();
-      if (fault.empty())
-        try
-        {
-          track.frames.push_back(is_matrix
-                                     ? frame_of_matrix(n, before)
-                                     : RigidTrack::Frame{ { n[1], n[2], n[3], n[4], n[5], n[6] } });
-        }
-        catch (const std::invalid_argument &error)
-        {
-          fault = error.what();
-        }
-      if (!fault.empty())
+      const bool is_first = track.times.empty();
+      n_wanted            = is_first ? n.size() : n_wanted;
+      if (const std::string fault
+          = fault_of_line(n, n_wanted,
+                          is_first ? -std::numeric_limits<double>::infinity() : track.times.back());
+          !fault.empty())
         throw UserError(fmt::format("{}:{}: {}.", file.string(), number, fault));
+      track.is_of_space = n.size() == n_of_matrix;
+      track.frames.push_back(
+          track.is_of_space
+              ? frame_of_matrix(n, is_first ? RigidTrack::Frame{} : track.frames.back())
+              : RigidTrack::Frame{ { n[1], n[2], n[3], n[4], n[5], n[6] } });
       track.times.push_back(n[0]);
-      track.is_of_space = is_matrix;
     }
     if (track.times.empty())
       throw UserError(file.string()

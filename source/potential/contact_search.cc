@@ -352,6 +352,18 @@ namespace Exemplar
     return part;
   }
 
+  namespace
+  {
+    std::array<SpaceVector3, 3>
+    way_of(const PairCorners &x, const Places &ends)
+    {
+      std::array<SpaceVector3, 3> way;
+      for (unsigned int i = 0; i < x.n; ++i)
+        way[i] = ends[x.nodes[i]] - x.places[i];
+      return way;
+    }
+  } // namespace
+
   double
   ContactSearch::max_step(const Places &places,
                           const Places &ends,
@@ -362,11 +374,9 @@ namespace Exemplar
     visit_candidates(places, ends, own_way + part_left * obstacles.width,
                      [&](const ContactPair &pair)
                      {
-                       const PairCorners           x = corners(pair, places);
-                       std::array<SpaceVector3, 3> way;
-                       for (unsigned int i = 0; i < x.n; ++i)
-                         way[i] = ends[x.nodes[i]] - x.places[i];
-                       longest = max_step(pair, x.places, way, x.n, own_way, longest);
+                       const PairCorners x   = corners(pair, places);
+                       const auto        way = way_of(x, ends);
+                       longest               = max_step(pair, x.places, way, x.n, own_way, longest);
                      });
     return longest;
   }
@@ -459,10 +469,8 @@ namespace Exemplar
     visit_candidates(places, ends, own_way + part_left * obstacles.width,
                      [&](const ContactPair &pair)
                      {
-                       PairCorners                 x = corners(pair, places);
-                       std::array<SpaceVector3, 3> way;
-                       for (unsigned int i = 0; i < x.n; ++i)
-                         way[i] = ends[x.nodes[i]] - x.places[i];
+                       PairCorners  x    = corners(pair, places);
+                       const auto   way  = way_of(x, ends);
                        const double part = max_step(pair, x.places, way, x.n, own_way, 1.);
                        if (!(part < 1.))
                          return;

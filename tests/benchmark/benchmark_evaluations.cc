@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/mpi_session.h>
 #include <exemplar/run/scene/scene_file.h>
 
 #include "benchmark_unit.h"
-
-#include <deal.II/base/multithread_info.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -65,16 +61,14 @@ namespace Exemplar
 int
 main(int argc, char *argv[])
 {
-  dealii::MultithreadInfo::set_thread_limit(1);
-  Exemplar::MpiSession mpi;
-  try
-  {
-    Exemplar::measure(argv[1], std::atoi(argv[2]), { argv + 3, argv + argc });
-  }
-  catch (const Exemplar::UserError &error)
-  {
-    std::cerr << error.what() << "\n";
-    return 1;
-  }
-  return 0;
+  return Exemplar::run_benchmark(
+      "benchmark_evaluations", argv,
+      [&]
+      {
+        if (argc < 3)
+          throw Exemplar::UserError(
+              "usage: benchmark_evaluations SCENE STEPS ['Section/Key=value']...");
+        Exemplar::measure(argv[1], std::atoi(argv[2]), { argv + 3, argv + argc });
+        return 0;
+      });
 }

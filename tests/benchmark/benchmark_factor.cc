@@ -4,13 +4,9 @@
 #include <exemplar/algebra/multifrontal_factor.h>
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/mpi_session.h>
 #include <exemplar/run/scene/scene_file.h>
 
 #include "benchmark_unit.h"
-
-#include <deal.II/base/exceptions.h>
-#include <deal.II/base/multithread_info.h>
 
 #include <cstring>
 #include <iostream>
@@ -162,25 +158,14 @@ namespace Exemplar
 int
 main(int argc, char *argv[])
 {
-  Exemplar::restart_with_right_core_type(argv);
-  Exemplar::use_one_blas_thread();
-  dealii::MultithreadInfo::set_thread_limit(1);
-  dealii::deal_II_exceptions::disable_abort_on_exception();
-  const Exemplar::MpiSession mpi;
-  if (argc < 2)
-  {
-    std::cerr << "usage: benchmark_factor SCENE ['Section/Key=value']...\n";
-    return 1;
-  }
-  try
-  {
-    std::cout << Exemplar::Measurement(argv[1], { argv + 2, argv + argc }).run().dump(2)
-              << std::endl;
-    return 0;
-  }
-  catch (const std::exception &error)
-  {
-    std::cerr << "benchmark_factor: " << error.what() << std::endl;
-    return dynamic_cast<const Exemplar::UserError *>(&error) != nullptr ? 1 : 2;
-  }
+  return Exemplar::run_benchmark(
+      "benchmark_factor", argv,
+      [&]
+      {
+        if (argc < 2)
+          throw Exemplar::UserError("usage: benchmark_factor SCENE ['Section/Key=value']...");
+        std::cout << Exemplar::Measurement(argv[1], { argv + 2, argv + argc }).run().dump(2)
+                  << std::endl;
+        return 0;
+      });
 }

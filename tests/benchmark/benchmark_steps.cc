@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/environment.h>
 #include <exemplar/base/errors.h>
-#include <exemplar/base/mpi_session.h>
 #include <exemplar/run/output/diagnostics.h>
 #include <exemplar/run/scene/scene_file.h>
 
 #include "benchmark_unit.h"
 
-#include <deal.II/base/exceptions.h>
-#include <deal.II/base/multithread_info.h>
 #include <deal.II/base/utilities.h>
 
 #include <CLI/CLI.hpp>
@@ -340,18 +337,6 @@ namespace Exemplar
 int
 main(int argc, char *argv[])
 {
-  Exemplar::restart_with_right_core_type(argv);
-  Exemplar::use_one_blas_thread();
-  dealii::MultithreadInfo::set_thread_limit(1);
-  dealii::deal_II_exceptions::disable_abort_on_exception();
-  const Exemplar::MpiSession mpi; // for multigrid
-  try
-  {
-    return Exemplar::run(argc, argv);
-  }
-  catch (const std::exception &error)
-  {
-    std::cerr << "benchmark_steps: " << error.what() << std::endl;
-    return dynamic_cast<const Exemplar::UserError *>(&error) != nullptr ? 1 : 2;
-  }
+  return Exemplar::run_benchmark("benchmark_steps", argv,
+                                 [&] { return Exemplar::run(argc, argv); });
 }

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/environment.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/base/mpi_session.h>
+
 #include "benchmark_unit.h"
 
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/multithread_info.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
 #include <cholmod.h>
+#include <iostream>
 #include <limits>
 
 namespace Exemplar
@@ -85,5 +92,24 @@ namespace Exemplar
                                       })
                                       .cpu);
     return a[n / 2] > 0. ? 3e-9 * sizeof(double) * n / minimum : 0.;
+  }
+
+  int
+  run_benchmark(const std::string &name, char *argv[], const std::function<int()> &run)
+  {
+    restart_with_right_core_type(argv);
+    use_one_blas_thread();
+    dealii::MultithreadInfo::set_thread_limit(1);
+    dealii::deal_II_exceptions::disable_abort_on_exception();
+    const MpiSession mpi; // for multigrid
+    try
+    {
+      return run();
+    }
+    catch (const std::exception &error)
+    {
+      std::cerr << name << ": " << error.what() << std::endl;
+      return dynamic_cast<const UserError *>(&error) != nullptr ? 1 : 2;
+    }
   }
 } // namespace Exemplar

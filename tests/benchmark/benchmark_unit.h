@@ -6,7 +6,9 @@
 #include <exemplar/run/problem/problem.h>
 
 #include <ctime>
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 // What steps are measured in: durations, the unit of work, and what the machine can do at best.
@@ -120,6 +122,11 @@ namespace Exemplar
   /// What a core can read and write of the main memory.
   double
   triad_gb_s();
+
+  /// What main() of a benchmark does: `run` on one thread, with the BLAS that programs use; its status, or as the program's if it
+  /// throws, with a message.
+  int
+  run_benchmark(const std::string &name, char *argv[], const std::function<int()> &run);
 } // namespace Exemplar
 
 #endif

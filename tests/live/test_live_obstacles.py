@@ -72,6 +72,15 @@ class LiveObstacles(unittest.TestCase):
             viewer.wait_steps(3)
             self.assertEqual((viewer.obstacles, viewer.frames[-1].obstacles), ([], None))
 
+    def test_what_follows_a_track_is_no_ground(self):
+        (self.here / "lift.txt").write_text("0 0 0 0 0 0 0\n1 0 0 0.1 0 0 0\n")
+        floor = {key: value for key, value in SCENE.items() if not key.startswith("Obstacles")}
+        floor.update({"Obstacles/Names": "floor", "Obstacles/floor/Shape": "plane 0 0 -2  0 0 1"})
+        for more, level in (({}, -2), ({"Obstacles/floor/Follow track": str(self.here / "lift.txt")}, None), ({"Obstacles/floor/Until": "0.5"}, None)):
+            (self.here / "scene.prm").write_text(prm({**floor, **more}))
+            with Viewer(self.serve()) as viewer:
+                self.assertEqual((viewer.scene["floor"], len(viewer.obstacles)), (level, 0 if level else 1))
+
     @needs_browser
     def test_the_page_shows_them(self):
         server = self.serve("--floor", "-3")

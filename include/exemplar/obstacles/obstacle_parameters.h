@@ -30,6 +30,10 @@ namespace Exemplar
     void
     check() const;
 
+    /// Whether no key moves it. Formulas that are constant are not looked into.
+    bool
+    stays() const;
+
     /// When it is there. check() must have passed.
     HoldingTime
     time() const;

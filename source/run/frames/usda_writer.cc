@@ -7,7 +7,7 @@
 #include <exemplar/run/frames/frame_writer.h>
 #include <exemplar/run/frames/single_precision.h>
 #include <exemplar/surface/files/material_library.h>
-#include <exemplar/surface/shape/vectors.h>
+#include <exemplar/surface/shape/vertex_normals.h>
 
 #include <fmt/format.h>
 
@@ -325,37 +325,6 @@ namespace Exemplar
       return extent;
     }
 
-    /// Unit normals at the vertices: means over the faces, weighted by their angles.
-    std::vector<SurfaceMesh::Vertex>
-    normals_of(const std::vector<std::vector<unsigned int>> &faces,
-               const std::vector<SurfaceMesh::Vertex>       &places)
-    {
-      std::vector<SurfaceMesh::Vertex> normals(places.size(), { { 0., 0., 0. } });
-      for (const auto &face : faces)
-      {
-        SurfaceMesh::Vertex normal{ { 0., 0., 0. } };
-        for (std::size_t i = 1; i + 1 < face.size(); ++i)
-          normal = plus(normal, 1.,
-                        cross(minus(places[face[i]], places[face[0]]),
-                              minus(places[face[i + 1]], places[face[0]])));
-        const double length = norm(normal);
-        for (std::size_t i = 0; length > 0. && i < face.size(); ++i)
-        {
-          const auto  &x     = places[face[i]];
-          const auto   next  = minus(places[face[(i + 1) % face.size()]], x);
-          const auto   last  = minus(places[face[(i + face.size() - 1) % face.size()]], x);
-          const double angle = std::atan2(norm(cross(next, last)), dot(next, last));
-          normals[face[i]]   = plus(normals[face[i]], angle / length, normal);
-        }
-      }
-      for (auto &normal : normals)
-        if (const double length = norm(normal); length > 0.)
-          normal = plus({ { 0., 0., 0. } }, 1. / length, normal);
-        else
-          normal = { { 0., 0., 1. } };
-      return normals;
-    }
-
     /// Writes the surface of the body as text of Pixar's Universal Scene Description. A frame is a
     /// layer with one time sample; the animation joins the samples.
     class UsdaWriter : public FrameWriter
@@ -426,7 +395,7 @@ namespace Exemplar
         if (sampled == Sampled::extent || sampled == Sampled::extent_of_cells)
           return list_of(extent_of(in_single_precision(points())), append_point);
         if (sampled == Sampled::normals)
-          return list(normals_of(faces, frame.surface));
+          return list(vertex_normals(faces, frame.surface));
         return list(sampled == Sampled::velocities ? frame.surface_velocities : points());
       }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/base/time_samples.h>
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/run/inputs/cache_motion.h>
 
@@ -26,16 +27,10 @@ namespace Exemplar
       Displacements
       at(const double time) const
       {
-        const auto after = static_cast<std::size_t>(
-            std::upper_bound(times.begin(), times.end(), time) - times.begin());
-        if (after == 0)
-          return samples.front();
-        if (after == times.size())
-          return samples.back();
-        const double  share  = (time - times[after - 1]) / (times[after] - times[after - 1]);
-        Displacements result = samples[after - 1];
+        const auto [before, next, share] = samples_around(times, time);
+        Displacements result             = samples[before];
         for (std::size_t i = 0; i < result.size() && share > 0.; ++i)
-          result[i] += share * (samples[after][i] - result[i]);
+          result[i] += share * (samples[next][i] - result[i]);
         return result;
       }
     };

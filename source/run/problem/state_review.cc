@@ -248,10 +248,11 @@ namespace Exemplar
     if (n_unsettled > 0)
       all.push_back(fmt::format(
           "Friction had not settled in {} {}, first in step {}: its normal forces changed by more "
-          "than Obstacles/Lag tolerance, {}, after each of 20 solutions. Take smaller steps, or a "
+          "than Obstacles/Lag tolerance, {}, as often as they are renewed in a step, {} times. "
+          "Take smaller steps, or a "
           "greater Lag tolerance.",
           n_unsettled, n_unsettled == 1 ? "step" : "steps", first_unsettled,
-          shortest_text(problem.actions.obstacles->lag_tolerance)));
+          shortest_text(problem.actions.obstacles->lag_tolerance), ObstacleTerm::max_renewals));
     for (const auto &warning :
          { describe_stretched(problem), describe_turned(problem), describe_miss(problem) })
       if (warning)
