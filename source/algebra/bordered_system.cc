@@ -82,6 +82,19 @@ namespace Exemplar
       }
 
       void
+      factorize_near(const Vector &positions) override
+      {
+        inverse_columns.clear();
+        A->factorize_near(positions);
+      }
+
+      bool
+      leans_on_earlier() const override
+      {
+        return A->leans_on_earlier();
+      }
+
+      void
       solve(BorderedVector &vector, const WeightLimits &limits) override
       {
         const std::size_t n = vector.positions.size();

@@ -177,10 +177,24 @@ namespace Exemplar
             continue;
           }
           assign(cell, choice[4]);
+          push_improved(cell, choice[0] > 0, push);
+        }
+      }
+
+      /// Push the cells whose choice may be better since `cell` has a patch: those behind its faces, and, if the patch
+      /// has gained a node, those at the nodes of `cell`.
+      template <typename Push>
+      void
+      push_improved(const unsigned int cell, const bool gained_nodes, const Push &push) const
+      {
+        if (gained_nodes)
           for (const unsigned int node : cells[cell])
             for (const unsigned int other : around[node])
               push(other);
-        }
+        else
+          for (const unsigned int other : beside[cell])
+            if (other != no_cell)
+              push(other);
       }
 
       /// Sort key of a cell's choice of a patch, less is better: number of nodes gained, minus the
@@ -192,19 +206,37 @@ namespace Exemplar
       {
         Choice                            best       = { { 4, 0, 0, static_cast<int>(cell), 0 } };
         const std::array<unsigned int, 4> candidates = patches_beside(cell);
-        for (const unsigned int candidate : candidates)
+        for (unsigned int face = 0; face < 4; ++face)
         {
+          const unsigned int candidate = candidates[face];
           if (candidate == no_patch)
             continue;
           const auto n_faces
               = static_cast<int>(std::count(candidates.begin(), candidates.end(), candidate));
-          int gain = 4;
-          for (const unsigned int node : cells[cell])
-            gain -= std::binary_search(nodes[candidate].begin(), nodes[candidate].end(), node);
+          // two faces have all four nodes
+          const int gain
+              = n_faces > 1 ? 0 : !has_node(candidate, node_off(cell, beside[cell][face]));
           best = std::min(best, Choice{ { gain, -n_faces, n_cells[candidate],
                                           static_cast<int>(cell), static_cast<int>(candidate) } });
         }
         return best;
+      }
+
+      /// The node of a cell that the cell behind one of its faces does not have.
+      unsigned int
+      node_off(const unsigned int cell, const unsigned int behind) const
+      {
+        const std::array<unsigned int, 4> &others = cells[behind];
+        return *std::find_if(cells[cell].begin(), cells[cell].end(),
+                             [&](const unsigned int node) {
+                               return std::find(others.begin(), others.end(), node) == others.end();
+                             });
+      }
+
+      bool
+      has_node(const unsigned int of_patch, const unsigned int node) const
+      {
+        return std::binary_search(nodes[of_patch].begin(), nodes[of_patch].end(), node);
       }
 
       /// The patches, of a cell's kind, behind its faces; no_patch where there is none.

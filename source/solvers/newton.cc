@@ -42,7 +42,7 @@ namespace Exemplar
   {
     SolveReport report;
     potential.begin_step(state, step_size);
-    Trial trial = { state, accepted };
+    Trial trial = { state, accepted, system.n_factorizations() };
     if (advance(trial, evaluation, time, 0, report))
     {
       state    = std::move(trial.state);
@@ -54,7 +54,7 @@ namespace Exemplar
   void
   Newton::take_over(State &state, Evaluation &evaluation, const double time, SolveReport &report)
   {
-    Trial trial = { state, {} };
+    Trial trial = { state, {}, system.n_factorizations() };
     if (advance(trial, evaluation, time, 0, report))
       state = std::move(trial.state);
   }
@@ -160,6 +160,13 @@ namespace Exemplar
   }
 
   bool
+  Newton::has_factor_of_step(const Trial &trial) const
+  {
+    return system.n_factorizations() > trial.n_factors
+           || trial.linearization.factor == system.n_factorizations();
+  }
+
+  bool
   Newton::find_factor(Trial &start)
   {
     Linearization &linearization = start.linearization;
@@ -177,6 +184,8 @@ namespace Exemplar
       body.set_history(start.state.history);
       linearization.factor = system.n_factorizations();
     }
+    else
+      system.forget_earlier(linearization.positions);
     return true;
   }
 
@@ -251,7 +260,7 @@ namespace Exemplar
     Linearization  here = { trial.state.positions, trial.state.weights, trial.state.history,
                             Linearization::not_made };
     BorderedVector step;
-    if (!find_step(trial.state, evaluation, step, report)
+    if (!find_step(trial, evaluation, step, report)
         || !search_along(step, trial.state, evaluation, report))
       return;
     if (!has_residual(parameters.tolerance, trial.state, evaluation))

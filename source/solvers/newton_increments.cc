@@ -104,7 +104,7 @@ namespace Exemplar
         {
           potential.set_time(time, start.state);
           evaluate(start.state, evaluation);
-          stage = first_stage(start.state, evaluation, report);
+          stage = first_stage(start, evaluation, report);
         },
         report);
     const HoldBack held(potential, evaluation.gradient, start.state.positions);
@@ -139,14 +139,14 @@ namespace Exemplar
   }
 
   double
-  Newton::first_stage(const State &start, const Evaluation &evaluation, SolveReport &report)
+  Newton::first_stage(const Trial &start, const Evaluation &evaluation, SolveReport &report)
   {
     BorderedVector step;
     if (!find_step(start, evaluation, step, report))
       return 0.125;
     const Exchange &exchange = potential.get_free_dofs().exchange();
-    const Vector    moved    = system.displacement(start, step);
+    const Vector    moved    = system.displacement(start.state, step);
     const double    maximum  = exchange.max(max_entry(moved.begin(), moved.end()));
-    return std::min(1., 0.25 * extent(start.positions, exchange) / maximum);
+    return std::min(1., 0.25 * extent(start.state.positions, exchange) / maximum);
   }
 } // namespace Exemplar

@@ -18,18 +18,22 @@ namespace Exemplar
   } // namespace
 
   bool
-  Newton::find_step(const State      &state,
+  Newton::find_step(const Trial      &trial,
                     const Evaluation &evaluation,
                     BorderedVector   &step,
                     SolveReport      &report)
   {
+    const State &state = trial.state;
     // the least part of the convex tangent that makes the mixture definite
     for (const double convexity : { 0., 0.125, 0.5, 1. })
     {
       report.convexity = convexity;
       try
       {
-        system.factorize(state.positions, state.weights, convexity);
+        if (has_factor_of_step(trial))
+          system.factorize_near(state.positions, state.weights, convexity);
+        else
+          system.factorize(state.positions, state.weights, convexity);
         step = system.solve(state, evaluation);
       }
       catch (const SolverFailure &failure)

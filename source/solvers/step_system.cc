@@ -27,6 +27,26 @@ namespace Exemplar
   }
 
   void
+  StepSystem::factorize_near(const Vector              &positions,
+                             const std::vector<double> &weights,
+                             const double               convexity)
+  {
+    assemble(positions, weights, convexity, PotentialTangent::Terms::all);
+    StepClock::Scope scope(clock, Phase::factorize);
+    system->factorize_near(positions);
+  }
+
+  void
+  StepSystem::forget_earlier(const Vector &positions)
+  {
+    if (!system->leans_on_earlier())
+      return;
+    StepClock::Scope scope(clock, Phase::factorize);
+    system->factorize(positions);
+    system->prepare();
+  }
+
+  void
   StepSystem::factorize_roughly(const Vector              &positions,
                                 const std::vector<double> &weights,
                                 const double               convexity)

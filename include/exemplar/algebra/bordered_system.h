@@ -96,6 +96,20 @@ namespace Exemplar
       factorize(positions);
     }
 
+    /// Factorize a matrix that has changed little, as SpdOperator::factorize_near().
+    virtual void
+    factorize_near(const Vector &positions)
+    {
+      factorize(positions);
+    }
+
+    /// As SpdOperator::leans_on_earlier().
+    virtual bool
+    leans_on_earlier() const
+    {
+      return false;
+    }
+
     /// Overwrite the right side by the solution, with changes of weights within `limits`. Throws
     /// SolverFailure if the system is singular.
     virtual void

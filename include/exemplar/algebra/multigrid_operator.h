@@ -43,6 +43,15 @@ namespace Exemplar
     factorize(const Vector &positions) override;
 
     void
+    factorize_near(const Vector &positions) override;
+
+    bool
+    leans_on_earlier() const override
+    {
+      return is_of_earlier;
+    }
+
+    void
     solve(std::vector<double> &columns) override;
 
     std::unique_ptr<KeptInverse>
@@ -53,6 +62,14 @@ namespace Exemplar
     std::vector<double>
     places_of_nodes(const Vector &positions) const;
 
+    /// Take the values and outer products as the matrix that solve() multiplies by.
+    void
+    take_matrix(const Vector &positions);
+
+    /// Make the hierarchy of the present matrix.
+    void
+    make_cycle();
+
     /// image = A vector, by own rows.
     void
     multiply(const Vector &vector, Vector &image) const;
@@ -62,16 +79,28 @@ namespace Exemplar
     precondition(const Vector &vector, Vector &image) const;
 
     void
-    solve(const SharedVector &right_side, SharedVector &solution) const;
+    solve(const SharedVector &right_side, SharedVector &solution);
 
-    const FreeDofs                 &free_dofs;
-    const double                    tolerance;
-    const MakeHierarchy             make_hierarchy;
-    std::vector<double>             lower_values;
-    OuterProducts                   products; ///< outer products by node
-    DistributedRows                 rows;
-    OuterProductRows<double>        product_rows;
-    std::shared_ptr<MultigridCycle> cycle; ///< cycle of the last factorize()
+    /// Go on from `solution` for at most `limit` iterations; returns their number, `limit` + 1 if these do not
+    /// suffice.
+    unsigned int
+    iterate(const SharedVector &right_side,
+            double              norm,
+            unsigned int        limit,
+            SharedVector       &solution) const;
+
+    const FreeDofs          &free_dofs;
+    const double             tolerance;
+    const MakeHierarchy      make_hierarchy;
+    std::vector<double>      lower_values;
+    OuterProducts            products; ///< outer products by node
+    DistributedRows          rows;
+    OuterProductRows<double> product_rows;
+    std::vector<double> places; ///< of the nodes with owned rows, where the matrix is the tangent
+    std::shared_ptr<MultigridCycle> cycle; ///< of the last factorize(), or of a matrix near it
+    bool         is_of_earlier = false;    ///< whether the cycle is that of an earlier matrix
+    unsigned int n_iterations
+        = 0; ///< of the first solve with the cycle and its own matrix; 0: there was none
   };
 } // namespace Exemplar
 

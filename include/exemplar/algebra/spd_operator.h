@@ -115,6 +115,22 @@ namespace Exemplar
       factorize(positions);
     }
 
+    /// factorize() of a matrix that has changed little since the last one, as in an iteration of Newton's method:
+    /// multigrid keeps its hierarchy, as long as few iterations more are needed with it. Solutions then depend on the
+    /// earlier matrix, too, within the tolerance.
+    virtual void
+    factorize_near(const Vector &positions)
+    {
+      factorize(positions);
+    }
+
+    /// Whether solve() uses anything of an earlier matrix than that of the last factorize_near().
+    virtual bool
+    leans_on_earlier() const
+    {
+      return false;
+    }
+
     /// Overwrite columns C (n entries each, one after the other) by A^-1 C. Throws SolverFailure if
     /// the matrix turns out only here not to be positive definite.
     virtual void
@@ -146,8 +162,8 @@ namespace Exemplar
 
   /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned with
   /// multigrid on the levels of ML's smoothed aggregation, whose coarse spaces hold the six rigid
-  /// motions of the nodes. Results depend on the matrix, the positions of the nodes and the right
-  /// side alone. The pattern given to reinit() must outlive the operator. Throws UserError in a
+  /// motions of the nodes. Results of factorize() and solve() depend on the matrix, the positions of the nodes and the
+  /// right side alone. The pattern given to reinit() must outlive the operator. Throws UserError in a
   /// build without Trilinos, and where MPI neither runs nor may be started (MpiSession).
   std::unique_ptr<SpdOperator>
   make_iterative_operator(const FreeDofs &free_dofs, double tolerance);

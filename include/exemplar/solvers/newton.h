@@ -70,7 +70,12 @@ namespace Exemplar
     {
       State         state;
       Linearization linearization;
+      unsigned int  n_factors = 0; ///< how many the system had made when its step began
     };
+
+    /// Whether the system's factor was made within the step, or as after a resume.
+    bool
+    has_factor_of_step(const Trial &trial) const;
 
     bool
     advance(Trial       &start,
@@ -87,7 +92,7 @@ namespace Exemplar
 
     /// The part of its forces that would move the body by a quarter of its extent, were it linear.
     double
-    first_stage(const State &start, const Evaluation &evaluation, SolveReport &report);
+    first_stage(const Trial &start, const Evaluation &evaluation, SolveReport &report);
 
     /// Put `trial`, a copy of `start`, near its minimum at `time`.
     void
@@ -126,7 +131,7 @@ namespace Exemplar
     take_step(Trial &trial, Evaluation &evaluation, SolveReport &report);
 
     bool
-    find_step(const State      &state,
+    find_step(const Trial      &trial,
               const Evaluation &evaluation,
               BorderedVector   &step,
               SolveReport      &report);

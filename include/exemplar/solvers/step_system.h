@@ -34,6 +34,15 @@ namespace Exemplar
     void
     factorize(const Vector &positions, const std::vector<double> &weights, double convexity);
 
+    /// factorize() after a small change within a step, as SpdOperator::factorize_near().
+    void
+    factorize_near(const Vector &positions, const std::vector<double> &weights, double convexity);
+
+    /// Let what the last factor has of an earlier matrix be made anew, with its columns: a step begins as after a
+    /// resume. `positions` are those of the last factor.
+    void
+    forget_earlier(const Vector &positions);
+
     /// factorize() in few digits: for BorderedSystem::keep(), the columns of weights, and callers that measure the
     /// residual of a solution.
     void

@@ -136,6 +136,67 @@ namespace Exemplar::Testing
       expect_agreement(bar);
     }
 
+    /// All values and the diagonal's, times these.
+    void
+    scale(SpdOperator            &matrix,
+          const SymmetricPattern &pattern,
+          const double            all,
+          const double            diagonal)
+    {
+      for (double &value : matrix.values())
+        value *= all;
+      for (unsigned int j = 0; j < pattern.n(); j += 7)
+        matrix.values()[pattern.column_start[j]] *= diagonal;
+    }
+
+    TEST_F(IterativeOperator, AgreesWithCholmodOnAMatrixNearAnEarlierOne)
+    {
+      const Mesh    mesh(BentBar::fine_mesh());
+      BentBar       bar(left_end(mesh));
+      const Vector &rest      = bar.body.fe_space.rest_positions();
+      const auto    iterative = bar.iterative(), cholmod = bar.cholmod();
+      bar.solve(*iterative);
+      EXPECT_FALSE(iterative->leans_on_earlier());
+      for (SpdOperator *matrix : { iterative.get(), cholmod.get() })
+      {
+        bar.fill(*matrix);
+        scale(*matrix, bar.elastic.matrix_pattern, 1.1, 1.2);
+        matrix->factorize_near(rest);
+      }
+      EXPECT_TRUE(iterative->leans_on_earlier());
+      EXPECT_LT(
+          relative_difference(bar.solve_with_factor(*iterative), bar.solve_with_factor(*cholmod)),
+          1e-9);
+      EXPECT_TRUE(iterative->leans_on_earlier());
+      // and anew, as if there had been no earlier one
+      iterative->factorize(rest);
+      EXPECT_FALSE(iterative->leans_on_earlier());
+      const auto other = bar.iterative();
+      bar.fill(*other);
+      scale(*other, bar.elastic.matrix_pattern, 1.1, 1.2);
+      other->factorize(rest);
+      EXPECT_EQ(bar.solve_with_factor(*iterative), bar.solve_with_factor(*other));
+    }
+
+    TEST_F(IterativeOperator, MakesTheHierarchyAnewForAMatrixFarFromTheEarlierOne)
+    {
+      const Mesh    mesh(BentBar::fine_mesh());
+      BentBar       bar(left_end(mesh));
+      const Vector &rest      = bar.body.fe_space.rest_positions();
+      const auto    iterative = bar.iterative(), cholmod = bar.cholmod();
+      bar.solve(*iterative);
+      for (SpdOperator *matrix : { iterative.get(), cholmod.get() })
+      {
+        bar.fill(*matrix);
+        scale(*matrix, bar.elastic.matrix_pattern, 1., 1e6);
+        matrix->factorize_near(rest);
+      }
+      EXPECT_LT(
+          relative_difference(bar.solve_with_factor(*iterative), bar.solve_with_factor(*cholmod)),
+          1e-9);
+      EXPECT_FALSE(iterative->leans_on_earlier());
+    }
+
     TEST_F(IterativeOperator, AgreesWithCholmodWhereNodesAreHeldInPart)
     {
       // rollers on the end, one of their nodes held, another in two components
