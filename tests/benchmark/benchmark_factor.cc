@@ -8,7 +8,6 @@
 
 #include "benchmark_unit.h"
 
-#include <cstring>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -38,22 +37,6 @@ namespace Exemplar
         seconds = seconds_on(CLOCK_THREAD_CPUTIME_ID) - begin;
       } while (seconds < seconds_of_a_round);
       return seconds / n;
-    }
-
-    /// Read all numbers once; the result depends on each.
-    std::uint64_t
-    read(const std::vector<float> &numbers)
-    {
-      asm volatile("" ::: "memory"); // or two readings would be compiled to one
-      std::uint64_t sum[8] = {};
-      for (std::size_t i = 0; i + 16 <= numbers.size(); i += 16)
-        for (int k = 0; k < 8; ++k)
-        {
-          std::uint64_t pair;
-          std::memcpy(&pair, numbers.data() + i + 2 * k, sizeof pair);
-          sum[k] += pair;
-        }
-      return sum[0] + sum[1] + sum[2] + sum[3] + sum[4] + sum[5] + sum[6] + sum[7];
     }
 
     /// A product of matrices in single precision.
@@ -114,7 +97,7 @@ namespace Exemplar
                 factor.solve(column);
               }));
           of_reading.push_back(
-              seconds_of([&] { read_sum += read(like_factor) + read(like_factor); }));
+              seconds_of([&] { read_sum += read_all(like_factor) + read_all(like_factor); }));
           of_seven.push_back(seconds_of(
               [&]
               {

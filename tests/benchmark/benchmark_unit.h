@@ -5,6 +5,7 @@
 #include <exemplar/base/median.h>
 #include <exemplar/run/problem/problem.h>
 
+#include <cstdint>
 #include <ctime>
 #include <functional>
 #include <memory>
@@ -118,6 +119,10 @@ namespace Exemplar
   /// What the BLAS reaches at best.
   double
   dgemm_gflops();
+
+  /// Read all numbers once; the result depends on each.
+  std::uint64_t
+  read_all(const std::vector<float> &numbers);
 
   /// What a core can read and write of the main memory.
   double
