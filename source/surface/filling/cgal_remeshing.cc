@@ -212,6 +212,22 @@ namespace Exemplar
     }
   } // namespace
 
+  bool
+  has_sharp_edges(const TriangleSurface &surface, const double edge_length)
+  {
+    CgalMesh   mesh = make_cgal_mesh(surface);
+    const Kept kept = mesh.add_property_map<CgalMesh::Edge_index, bool>("e:kept", false).first;
+    for (const double length : { edge_length, 2. * edge_length })
+    {
+      Kept now = kept;
+      keep_sharp_edges(mesh, length, now);
+      for (const auto edge : mesh.edges())
+        if (now[edge])
+          return true;
+    }
+    return false;
+  }
+
   TriangleSurface
   remesh(const TriangleSurface   &surface,
          const double             edge_length,

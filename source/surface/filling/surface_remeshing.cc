@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/surface/filling/surface_remeshing.h>
+#include <exemplar/surface/shape/narrow_gaps.h>
 #include <exemplar/surface/shape/surface_checks.h>
 #include <exemplar/surface/shape/surface_edges.h>
 #include <exemplar/surface/shape/surface_geometry.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 
 namespace Exemplar
 {
@@ -62,17 +62,6 @@ namespace Exemplar
       }
     }
 
-    TriangleSurface
-    remesh_in_order(const TriangleSurface   &surface,
-                    const double             edge_length,
-                    const bool               keep_edges,
-                    const std::vector<bool> &held = {})
-    {
-      TriangleSurface result = remesh(surface, edge_length, keep_edges, held);
-      restore_order(surface, result);
-      return result;
-    }
-
     bool
     is_faultless(const TriangleSurface &surface)
     {
@@ -86,6 +75,9 @@ namespace Exemplar
       const auto &x         = surface.vertices;
       return plus(x[a], 1. / 3., plus(minus(x[b], x[a]), 1., minus(x[c], x[a])));
     }
+
+    /// Distance from a filled gap within which triangles are held, over that from an intersection.
+    constexpr double gap_reach = .3;
 
     /// Mark the triangles of `surface` that are nearer than `distance` to those of `remeshed` that
     /// intersect.
@@ -117,56 +109,106 @@ namespace Exemplar
       return " near " + short_text(x) + ", " + short_text(y) + ", " + short_text(z);
     }
 
-    /// Remeshes with the triangles held that are near to intersections, first of `evenly` and then
-    /// of the result; none if that does not help.
-    std::optional<TriangleSurface>
-    hold_near_sheets(const TriangleSurface &surface,
-                     const double           edge_length,
-                     const bool             keep_edges,
-                     const TriangleSurface &evenly)
-    {
-      std::vector<bool> held(surface.triangles.size(), false);
-      TriangleSurface   result = evenly;
-      for (double distance = edge_length; distance < 10. * edge_length; distance *= 1.5)
-      {
-        mark_near_intersections(surface, result, distance, held);
-        result = remesh_in_order(surface, edge_length, keep_edges, held);
-        if (is_faultless(result))
-          return result;
-      }
-      return {};
-    }
-
-    /// Remeshes with shorter edges; none if that does not help.
-    std::optional<TriangleSurface>
-    refine(const TriangleSurface &surface, const double edge_length, const bool keep_edges)
-    {
-      for (const double factor : { .8, .64 })
-        if (TriangleSurface finer = remesh_in_order(surface, factor * edge_length, keep_edges);
-            is_faultless(finer))
-          return finer;
-      return {};
-    }
   } // namespace
 
-  Remeshed
-  remesh_without_intersections(const TriangleSurface &surface,
-                               const double           edge_length,
-                               const bool             keep_edges,
-                               const NearSheets       near_sheets,
-                               const std::string     &cells_option)
+  SheetRemeshing::SheetRemeshing(const TriangleSurface      &surface,
+                                 const bool                  keep_edges,
+                                 const NearSheets            near_sheets,
+                                 const std::vector<OpenGap> &gaps,
+                                 const std::string          &cells_option)
+      : surface(surface), keep_edges(keep_edges), near_sheets(near_sheets), gaps(gaps),
+        cells_option(cells_option)
   {
-    TriangleSurface evenly = remesh_in_order(surface, edge_length, keep_edges);
-    if (is_faultless(evenly))
-      return { std::move(evenly), false };
-    for (const bool first : { true, false })
+  }
+
+  TriangleSurface
+  SheetRemeshing::remesh_in_order(const double edge_length) const
+  {
+    TriangleSurface result = Exemplar::remesh(surface, shortening * edge_length, keep_edges, held);
+    restore_order(surface, result);
+    return result;
+  }
+
+  /// Holds the triangles beside gaps that are filled in the remeshed surface. Returns whether there
+  /// are such gaps.
+  bool
+  SheetRemeshing::mark_closed_gaps(const TriangleSurface &remeshed, const double distance)
+  {
+    std::vector<SpaceVector> middles;
+    for (const OpenGap &gap : gaps)
+      middles.push_back(gap.middle);
+    const std::vector<bool> open = are_outside(remeshed, middles);
+    TriangleSurface         places{ {}, {}, {} };
+    for (std::size_t i = 0; i < gaps.size(); ++i)
+      if (!open[i])
+      {
+        const auto n = static_cast<unsigned int>(places.vertices.size());
+        places.vertices.push_back(gaps[i].place);
+        places.triangles.push_back({ { n, n, n } });
+      }
+    if (places.triangles.empty())
+      return false;
+    held.resize(surface.triangles.size(), false);
+    const NearestTriangle nearest(places);
+    for (unsigned int t = 0; t < surface.triangles.size(); ++t)
+      if (!held[t] && nearest(middle_of(surface, t)).first < distance)
+        held[t] = true;
+    return true;
+  }
+
+  /// Holds the triangles that are near to intersections, first of `result` as it is given and then
+  /// of what becomes of it. Returns whether it has become faultless.
+  bool
+  SheetRemeshing::hold(TriangleSurface &result, const double edge_length)
+  {
+    bool is_sound = is_faultless(result);
+    for (double distance = edge_length; distance < 10. * edge_length; distance *= 1.5)
     {
-      const bool holds  = (near_sheets == NearSheets::held) == first;
-      auto       result = holds ? hold_near_sheets(surface, edge_length, keep_edges, evenly)
-                                : refine(surface, edge_length, keep_edges);
-      if (result)
-        return { std::move(*result), true };
+      const bool has_closed
+          = is_sound && !gaps.empty() && mark_closed_gaps(result, gap_reach * distance);
+      if (is_sound && !has_closed)
+        return true;
+      met_sheets = true;
+      if (!is_sound)
+      {
+        held.resize(surface.triangles.size(), false);
+        mark_near_intersections(surface, result, distance, held);
+      }
+      result   = remesh_in_order(edge_length);
+      is_sound = is_faultless(result);
     }
+    return is_sound;
+  }
+
+  /// Shortens all edges. Returns whether the surface has become faultless.
+  bool
+  SheetRemeshing::refine(TriangleSurface &result, const double edge_length)
+  {
+    met_sheets          = true;
+    const double before = shortening;
+    for (const double factor : { .8, .64 })
+    {
+      shortening = factor * before;
+      result     = remesh_in_order(edge_length);
+      if (is_faultless(result))
+        return true;
+    }
+    shortening = before;
+    return false;
+  }
+
+  TriangleSurface
+  SheetRemeshing::remesh(const double edge_length)
+  {
+    const TriangleSurface evenly = remesh_in_order(edge_length);
+    TriangleSurface       result = evenly;
+    if (near_sheets == NearSheets::refined && !is_faultless(result)
+        && refine(result, edge_length) && gaps.empty())
+      return result;
+    if (hold(result, edge_length))
+      return result;
+    if (near_sheets == NearSheets::held && refine(result, edge_length))
+      return result;
     throw SolverFailure("The surface intersects itself" + place_of_crossing(evenly)
                         + " when its edges become " + short_text(edge_length)
                         + " long. Ask for more cells (" + cells_option

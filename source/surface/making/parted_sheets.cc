@@ -6,6 +6,7 @@
 #include <exemplar/surface/filling/cell_angles.h>
 #include <exemplar/surface/making/parted_sheets.h>
 #include <exemplar/surface/posing/pose_carrying.h>
+#include <exemplar/surface/shape/narrow_gaps.h>
 #include <exemplar/surface/shape/surface_checks.h>
 #include <exemplar/surface/shape/surface_geometry.h>
 #include <exemplar/surface/shape/triangle_surface.h>
@@ -214,6 +215,41 @@ namespace Exemplar
       return notes;
     }
 
+    SpaceVector
+    place_in(const TriangleSurface &surface, const SurfacePoint &point, const Vertices &vertices)
+    {
+      SpaceVector place{ { 0., 0., 0. } };
+      for (int a = 0; a < 3; ++a)
+        place = plus(place, point.share[a], vertices[surface.triangles[point.triangle][a]]);
+      return place;
+    }
+
+    /// Gaps narrower than the cells whose sheets go apart or together by more than
+    /// least_parting times the diagonal in a pose: if cells filled them, the sheets would hang
+    /// together.
+    std::vector<OpenGap>
+    parting_gaps(const TriangleSurface       &placed,
+                 const std::vector<NearPose> &poses,
+                 const double                 n_cells)
+    {
+      constexpr double     least_parting = .003;
+      const double         least         = least_parting * diagonal_of(placed.vertices);
+      std::vector<OpenGap> result;
+      for (const NarrowGap &gap : narrow_gaps(placed, edge_length_of(placed, n_cells)))
+      {
+        const auto width = [&](const Vertices &vertices) {
+          return norm(minus(place_in(placed, gap.near, vertices),
+                            place_in(placed, gap.far, vertices)));
+        };
+        const double before = width(placed.vertices);
+        if (std::any_of(poses.begin(), poses.end(),
+                        [&](const NearPose &pose)
+                        { return std::abs(width(pose.vertices) - before) > least; }))
+          result.push_back({ place_in(placed, gap.near, placed.vertices), gap.middle });
+      }
+      return result;
+    }
+
     /// Moves the cells that fill the surface at `from` to where they fill it at `to`.
     void
     carry_cells(TetrahedralMesh &mesh, const TriangleSurface &from, const Vertices &to)
@@ -250,16 +286,19 @@ namespace Exemplar
     const TriangleSurface       triangles = triangulate(rest.surface);
     const SheetCrossings        crossings(triangles);
     const Opening               opening = find_opening(rest.surface.vertices, poses, crossings);
+    TriangleSurface open                    = triangles;
+    open.vertices                           = opening.vertices;
+    const std::vector<OpenGap> gaps
+        = opening.crossing.empty() ? parting_gaps(open, poses, options.n_cells)
+                                   : std::vector<OpenGap>{};
     if (opening.how.empty() && opening.crossing.empty())
-      return mesh_surface(options);
-    TriangleSurface open = triangles;
-    open.vertices        = opening.vertices;
+      return mesh_surface_at(rest.surface, { rest.surface.vertices, {}, {}, gaps }, options);
     std::function<void(TetrahedralMesh &)> back;
     if (!opening.how.empty())
       back = [&](TetrahedralMesh &mesh) { carry_cells(mesh, open, rest.surface.vertices); };
     return mesh_surface_at(rest.surface,
                            { opening.vertices, back,
-                             notes_on(opening, triangles, crossings.pairs(rest.surface.vertices)) },
+                             notes_on(opening, triangles, crossings.pairs(rest.surface.vertices)), gaps },
                            options);
   }
 } // namespace Exemplar
