@@ -212,6 +212,30 @@ namespace Exemplar
     }
   } // namespace
 
+  TriangleSurface
+  thin(const TriangleSurface &surface, const double edge_length, std::vector<Treatment> &treatments)
+  {
+    // borders of groups stay: each treatment gets groups of its own
+    const unsigned int n_groups
+        = 1 + *std::max_element(surface.groups.begin(), surface.groups.end());
+    TriangleSurface   marked = surface;
+    std::vector<bool> others(treatments.size());
+    for (std::size_t t = 0; t < treatments.size(); ++t)
+    {
+      marked.groups[t] += static_cast<unsigned int>(treatments[t]) * n_groups;
+      others[t] = treatments[t] != Treatment::thinned;
+    }
+    TriangleSurface result = remesh_holding(
+        marked, edge_length, false, { std::vector<bool>(surface.vertices.size(), false), others });
+    treatments.clear();
+    for (unsigned int &group : result.groups)
+    {
+      treatments.push_back(static_cast<Treatment>(group / n_groups));
+      group %= n_groups;
+    }
+    return result;
+  }
+
   bool
   has_sharp_edges(const TriangleSurface &surface, const double edge_length)
   {

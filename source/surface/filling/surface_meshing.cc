@@ -213,9 +213,9 @@ namespace Exemplar
               const SurfaceMeshingOptions &options)
     {
       SheetRemeshing remeshing(surface, keep_edges, near_sheets, gaps, options.cells_option);
-      double        h     = edge_length_of(surface, n_cells);
-      double        power = 3., last_h = 0., last_n = 0., best_error = 0.;
-      FilledSurface best;
+      double         h     = edge_length_of(surface, n_cells);
+      double         power = 3., last_h = 0., last_n = 0., best_error = 0.;
+      FilledSurface  best;
       for (unsigned int attempt = 0; attempt < n_attempts; ++attempt)
       {
         TetrahedralMesh mesh;
@@ -293,7 +293,8 @@ namespace Exemplar
         for (const NearSheets near_sheets : { NearSheets::held, NearSheets::refined })
           try
           {
-            FilledSurface filled = fill_with(surface, n_cells, keep_edges, near_sheets, gaps, options);
+            FilledSurface filled
+                = fill_with(surface, n_cells, keep_edges, near_sheets, gaps, options);
             remove_slivers(filled.mesh);
             const Judgement now = judge(body, filled.mesh);
             if (is_better(now, best))

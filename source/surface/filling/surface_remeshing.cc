@@ -79,9 +79,25 @@ namespace Exemplar
     /// Distance from a filled gap within which triangles are held, over that from an intersection.
     constexpr double gap_reach = .3;
 
+    /// Edges of held triangles that are thinned, over those of the others.
+    constexpr double fineness = .25;
+
+    /// Number of times that a surface is remeshed in search of one without intersections, and with
+    /// the wanted number of cells.
+    constexpr unsigned int most_remeshed = 60;
+
+    double
+    longest_side(const TriangleSurface &surface, const unsigned int triangle)
+    {
+      const auto &[a, b, c] = surface.triangles[triangle];
+      const auto &x         = surface.vertices;
+      return std::max(
+          { norm(minus(x[a], x[b])), norm(minus(x[b], x[c])), norm(minus(x[c], x[a])) });
+    }
+
     /// Mark the triangles of `surface` that are nearer than `distance` to those of `remeshed` that
-    /// intersect.
-    void
+    /// intersect. Returns whether there are such.
+    bool
     mark_near_intersections(const TriangleSurface &surface,
                             const TriangleSurface &remeshed,
                             const double           distance,
@@ -92,11 +108,12 @@ namespace Exemplar
         for (const unsigned int triangle : { first, second })
           intersecting.triangles.push_back(remeshed.triangles[triangle]);
       if (intersecting.triangles.empty())
-        return;
+        return false;
       const NearestTriangle nearest(intersecting);
       for (unsigned int t = 0; t < surface.triangles.size(); ++t)
         if (!marked[t] && nearest(middle_of(surface, t)).first < distance)
           marked[t] = true;
+      return true;
     }
 
     std::string
@@ -122,8 +139,9 @@ namespace Exemplar
   }
 
   TriangleSurface
-  SheetRemeshing::remesh_in_order(const double edge_length) const
+  SheetRemeshing::remesh_in_order(const double edge_length)
   {
+    ++n_remeshed;
     TriangleSurface result = Exemplar::remesh(surface, shortening * edge_length, keep_edges, held);
     restore_order(surface, result);
     return result;
@@ -132,8 +150,12 @@ namespace Exemplar
   /// Holds the triangles beside gaps that are filled in the remeshed surface. Returns whether there
   /// are such gaps.
   bool
-  SheetRemeshing::mark_closed_gaps(const TriangleSurface &remeshed, const double distance)
+  SheetRemeshing::mark_closed_gaps(const TriangleSurface &remeshed,
+                                   const double           distance,
+                                   std::vector<bool>     &marked) const
   {
+    if (gaps.empty())
+      return false;
     std::vector<SpaceVector> middles;
     for (const OpenGap &gap : gaps)
       middles.push_back(gap.middle);
@@ -148,12 +170,51 @@ namespace Exemplar
       }
     if (places.triangles.empty())
       return false;
-    held.resize(surface.triangles.size(), false);
     const NearestTriangle nearest(places);
     for (unsigned int t = 0; t < surface.triangles.size(); ++t)
-      if (!held[t] && nearest(middle_of(surface, t)).first < distance)
-        held[t] = true;
+      if (!marked[t] && nearest(middle_of(surface, t)).first < distance)
+        marked[t] = true;
     return true;
+  }
+
+  /// Remeshes the held triangles that are much finer than the cells, so that there are no more of
+  /// them than sheets need that go their own way; but not where they would then intersect, or close
+  /// gaps.
+  void
+  SheetRemeshing::thin_held(const double edge_length)
+  {
+    const double fine = fineness * edge_length;
+    is_thinned.resize(held.size(), false);
+    std::vector<Treatment> wanted(held.size(), Treatment::free);
+    for (unsigned int t = 0; t < held.size(); ++t)
+      if (held[t])
+        wanted[t] = is_thinned[t] || 1.5 * longest_side(surface, t) > fine ? Treatment::held
+                                                                           : Treatment::thinned;
+    for (double distance = fine; distance < 4. * fine; distance *= 1.5)
+    {
+      if (std::find(wanted.begin(), wanted.end(), Treatment::thinned) == wanted.end())
+        break;
+      ++n_remeshed;
+      std::vector<Treatment> treatments = wanted;
+      TriangleSurface        thinned    = thin(surface, fine, treatments);
+      restore_order(surface, thinned);
+      std::vector<bool> bad(held.size(), false);
+      if (is_faultless(thinned) ? !mark_closed_gaps(thinned, .5 * distance, bad)
+                                : !mark_near_intersections(surface, thinned, distance, bad))
+      {
+        if (!is_faultless(thinned))
+          break;
+        surface = std::move(thinned);
+        held.clear();
+        for (const Treatment treatment : treatments)
+          held.push_back(treatment != Treatment::free);
+        break;
+      }
+      for (std::size_t t = 0; t < wanted.size(); ++t)
+        if (bad[t] && held[t])
+          wanted[t] = Treatment::held;
+    }
+    is_thinned = held;
   }
 
   /// Holds the triangles that are near to intersections, first of `result` as it is given and then
@@ -164,16 +225,17 @@ namespace Exemplar
     bool is_sound = is_faultless(result);
     for (double distance = edge_length; distance < 10. * edge_length; distance *= 1.5)
     {
-      const bool has_closed
-          = is_sound && !gaps.empty() && mark_closed_gaps(result, gap_reach * distance);
-      if (is_sound && !has_closed)
+      std::vector<bool> marked = held;
+      marked.resize(surface.triangles.size(), false);
+      const bool is_new = is_sound ? mark_closed_gaps(result, gap_reach * distance, marked)
+                                   : mark_near_intersections(surface, result, distance, marked);
+      if (is_sound && !is_new)
         return true;
+      if (n_remeshed > most_remeshed)
+        break;
       met_sheets = true;
-      if (!is_sound)
-      {
-        held.resize(surface.triangles.size(), false);
-        mark_near_intersections(surface, result, distance, held);
-      }
+      held       = std::move(marked);
+      thin_held(edge_length);
       result   = remesh_in_order(edge_length);
       is_sound = is_faultless(result);
     }
@@ -202,16 +264,18 @@ namespace Exemplar
   {
     const TriangleSurface evenly = remesh_in_order(edge_length);
     TriangleSurface       result = evenly;
-    if (near_sheets == NearSheets::refined && !is_faultless(result)
+    if (near_sheets == NearSheets::refined && !is_faultless(result) && n_remeshed < most_remeshed
         && refine(result, edge_length) && gaps.empty())
       return result;
     if (hold(result, edge_length))
       return result;
-    if (near_sheets == NearSheets::held && refine(result, edge_length))
+    if (near_sheets == NearSheets::held && n_remeshed < most_remeshed
+        && refine(result, edge_length))
       return result;
     throw SolverFailure("The surface intersects itself" + place_of_crossing(evenly)
-                        + " when its edges become " + short_text(edge_length)
-                        + " long. Ask for more cells (" + cells_option
+                        + " when its edges become " + short_text(edge_length) + " long"
+                        + (n_remeshed < most_remeshed ? "" : ", and in many more attempts")
+                        + ". Ask for more cells (" + cells_option
                         + "), or thicken its thin parts there.");
   }
 } // namespace Exemplar

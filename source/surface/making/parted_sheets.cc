@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/surface/files/numbered_files.h>
 #include <exemplar/surface/filling/cell_angles.h>
@@ -10,6 +12,7 @@
 #include <exemplar/surface/shape/surface_checks.h>
 #include <exemplar/surface/shape/surface_geometry.h>
 #include <exemplar/surface/shape/triangle_surface.h>
+#include <exemplar/surface/skin/surface_anchors.h>
 
 #include <fmt/core.h>
 
@@ -238,8 +241,8 @@ namespace Exemplar
       for (const NarrowGap &gap : narrow_gaps(placed, edge_length_of(placed, n_cells)))
       {
         const auto width = [&](const Vertices &vertices) {
-          return norm(minus(place_in(placed, gap.near, vertices),
-                            place_in(placed, gap.far, vertices)));
+          return norm(
+              minus(place_in(placed, gap.near, vertices), place_in(placed, gap.far, vertices)));
         };
         const double before = width(placed.vertices);
         if (std::any_of(poses.begin(), poses.end(),
@@ -248,6 +251,16 @@ namespace Exemplar
           result.push_back({ place_in(placed, gap.near, placed.vertices), gap.middle });
       }
       return result;
+    }
+
+    std::vector<SurfaceTie>
+    ties_where_open(const SurfaceMesh     &rest,
+                    const Vertices        &vertices,
+                    const TetrahedralMesh &filled)
+    {
+      SurfaceMesh open = rest;
+      open.vertices    = vertices;
+      return make_ties(open, Mesh(make_msh(as_points(filled.nodes), filled.cells), "the cells"));
     }
 
     /// Moves the cells that fill the surface at `from` to where they fill it at `to`.
@@ -286,19 +299,27 @@ namespace Exemplar
     const TriangleSurface       triangles = triangulate(rest.surface);
     const SheetCrossings        crossings(triangles);
     const Opening               opening = find_opening(rest.surface.vertices, poses, crossings);
-    TriangleSurface open                    = triangles;
-    open.vertices                           = opening.vertices;
-    const std::vector<OpenGap> gaps
-        = opening.crossing.empty() ? parting_gaps(open, poses, options.n_cells)
-                                   : std::vector<OpenGap>{};
+    TriangleSurface             open    = triangles;
+    open.vertices                       = opening.vertices;
+    const std::vector<OpenGap> gaps     = opening.crossing.empty()
+                                              ? parting_gaps(open, poses, options.n_cells)
+                                              : std::vector<OpenGap>{};
     if (opening.how.empty() && opening.crossing.empty())
       return mesh_surface_at(rest.surface, { rest.surface.vertices, {}, {}, gaps }, options);
     std::function<void(TetrahedralMesh &)> back;
+    std::vector<SurfaceTie>                ties;
     if (!opening.how.empty())
-      back = [&](TetrahedralMesh &mesh) { carry_cells(mesh, open, rest.surface.vertices); };
-    return mesh_surface_at(rest.surface,
-                           { opening.vertices, back,
-                             notes_on(opening, triangles, crossings.pairs(rest.surface.vertices)), gaps },
-                           options);
+      back = [&](TetrahedralMesh &mesh)
+      {
+        ties = ties_where_open(rest.surface, opening.vertices, mesh);
+        carry_cells(mesh, open, rest.surface.vertices);
+      };
+    MeshedSurface meshed = mesh_surface_at(
+        rest.surface,
+        { opening.vertices, back,
+          notes_on(opening, triangles, crossings.pairs(rest.surface.vertices)), gaps },
+        options);
+    meshed.mesh.surface_ties = std::move(ties);
+    return meshed;
   }
 } // namespace Exemplar

@@ -21,14 +21,14 @@ namespace Exemplar
     SurfacePoint
     point_in(const TriangleSurface &surface, const unsigned int triangle, const SpaceVector &place)
     {
-      const auto       &t = surface.triangles[triangle];
-      const auto       &x = surface.vertices;
+      const auto       &t      = surface.triangles[triangle];
+      const auto       &x      = surface.vertices;
       const SpaceVector normal = cross(minus(x[t[1]], x[t[0]]), minus(x[t[2]], x[t[0]]));
       SurfacePoint      point{ triangle, {} };
       for (int a = 0; a < 3; ++a)
-        point.share[a] = dot(cross(minus(x[t[(a + 1) % 3]], place), minus(x[t[(a + 2) % 3]], place)),
-                             normal)
-                         / dot(normal, normal);
+        point.share[a]
+            = dot(cross(minus(x[t[(a + 1) % 3]], place), minus(x[t[(a + 2) % 3]], place)), normal)
+              / dot(normal, normal);
       return point;
     }
 
@@ -61,12 +61,12 @@ namespace Exemplar
       const double length = norm(normal);
       if (!(length > 0.))
         continue;
-      const SurfacePoint near{ t, { { 1. / 3., 1. / 3., 1. / 3. } } };
-      const SpaceVector  place = weighted(surface, near);
-      const SpaceVector  far   = plus(place, width / length, normal);
-      const CgalKernel::Segment_3 way(to_cgal(place), to_cgal(far));
-      double                      nearest = 1.;
-      unsigned int                other   = t;
+      const SurfacePoint                     near{ t, { { 1. / 3., 1. / 3., 1. / 3. } } };
+      const SpaceVector                      place = weighted(surface, near);
+      const SpaceVector                      far   = plus(place, width / length, normal);
+      const CgalKernel::Segment_3            way(to_cgal(place), to_cgal(far));
+      double                                 nearest = 1.;
+      unsigned int                           other   = t;
       std::vector<Triangles::const_iterator> met;
       search.all_intersected_primitives(way, std::back_inserter(met));
       for (const auto &triangle : met)
@@ -74,8 +74,8 @@ namespace Exemplar
         const auto n = static_cast<unsigned int>(triangle - triangles.cbegin());
         if (n == t)
           continue;
-        const auto plane = triangle->supporting_plane();
-        const auto along = plane.orthogonal_vector();
+        const auto   plane = triangle->supporting_plane();
+        const auto   along = plane.orthogonal_vector();
         const double down  = along * (way.target() - way.source());
         if (!(down < 0.))
           continue; // it faces the same way

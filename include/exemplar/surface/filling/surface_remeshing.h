@@ -18,6 +18,19 @@ namespace Exemplar
          bool                     keep_edges,
          const std::vector<bool> &held = {});
 
+  /// What becomes of a triangle.
+  enum class Treatment : unsigned char
+  {
+    free,    ///< remeshed with edges of the length that is asked for
+    thinned, ///< held, but remeshed once with edges of another length
+    held     ///< stays as it is
+  };
+
+  /// Remeshes those triangles of a surface alone that are to be thinned, to edges of about
+  /// `edge_length`. `treatments` become those of the triangles of the result.
+  TriangleSurface
+  thin(const TriangleSurface &surface, double edge_length, std::vector<Treatment> &treatments);
+
   /// Treatment of sheets that almost touch, as the lips of a mouth do, and that intersect when each
   /// is remeshed by itself.
   enum class NearSheets
@@ -45,7 +58,7 @@ namespace Exemplar
   class SheetRemeshing
   {
   public:
-    /// Keeps references. `cells_option` is the option by which the user asks for more cells.
+    /// Keeps references to gaps and option. `cells_option` is the option by which the user asks for more cells.
     SheetRemeshing(const TriangleSurface      &surface,
                    bool                        keep_edges,
                    NearSheets                  near_sheets,
@@ -65,20 +78,26 @@ namespace Exemplar
 
   private:
     TriangleSurface
-    remesh_in_order(double edge_length) const;
+    remesh_in_order(double edge_length);
     bool
-    mark_closed_gaps(const TriangleSurface &remeshed, double distance);
+    mark_closed_gaps(const TriangleSurface &remeshed,
+                     double                 distance,
+                     std::vector<bool>     &marked) const;
+    void
+    thin_held(double edge_length);
     bool
     hold(TriangleSurface &result, double edge_length);
     bool
     refine(TriangleSurface &result, double edge_length);
 
-    const TriangleSurface      &surface;
+    TriangleSurface             surface; ///< with its held triangles thinned
     const bool                  keep_edges;
     const NearSheets            near_sheets;
     const std::vector<OpenGap> &gaps;
     const std::string          &cells_option;
     std::vector<bool>           held;
+    std::vector<bool>           is_thinned; ///< triangles that were thinned, or cannot be
+    unsigned int                n_remeshed = 0;
     double                      shortening = 1.; ///< factor of the edges' length
     bool                        met_sheets = false;
   };
