@@ -301,8 +301,8 @@ namespace Exemplar
               best = { std::move(filled.mesh), now };
             if (best.judgement.angles.n_slivers == 0)
               return best;
-            if (!filled.has_near_sheets)
-              break; // the other treatment would give the same
+            if (!filled.has_near_sheets || !gaps.empty())
+              break; // the other treatment would give the same, or no better gaps
           }
           catch (const SolverFailure &)
           {

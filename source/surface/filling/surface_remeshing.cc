@@ -80,7 +80,7 @@ namespace Exemplar
     constexpr double gap_reach = .3;
 
     /// Edges of held triangles that are thinned, over those of the others.
-    constexpr double fineness = .25;
+    constexpr double fineness = .18;
 
     /// Number of times that a surface is remeshed in search of one without intersections, and with
     /// the wanted number of cells.

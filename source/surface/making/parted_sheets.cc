@@ -154,27 +154,39 @@ namespace Exemplar
     }
 
     /// The opening with one more pose added that leaves the fewest pairs crossing, by the smallest
-    /// share of the way to it that does; or `now` itself.
+    /// share of the way to it that does, and if it may be the next one, as sheets that have just
+    /// parted almost touch; or `now` itself.
     Opening
     opened_further(const Opening               &now,
                    const Vertices              &rest,
                    const std::vector<NearPose> &poses,
                    const SheetCrossings        &crossings)
     {
-      Opening best = now;
-      for (const double way : ways)
+      const auto opened = [&](const NearPose &pose, const double way)
+      {
+        Vertices vertices = on_the_way(now.vertices, rest, pose.vertices, way);
+        Pairs    pairs    = crossings.pairs(vertices);
+        return Opening{ std::move(vertices), std::move(pairs),
+                        now.how
+                            + fmt::format("{}{} % of the way to {}", now.how.empty() ? "" : " and ",
+                                          100. * way, pose.file.filename().string()) };
+      };
+      Opening         best      = now;
+      const NearPose *best_pose = nullptr;
+      std::size_t     best_way  = 0;
+      for (std::size_t k = 0; k < ways.size(); ++k)
         for (const NearPose &pose : poses)
-        {
-          if (best.crossing.empty())
-            return best;
-          Vertices vertices = on_the_way(now.vertices, rest, pose.vertices, way);
-          Pairs    pairs    = crossings.pairs(vertices);
-          if (pairs.size() < best.crossing.size())
-            best = { std::move(vertices), std::move(pairs),
-                     now.how
-                         + fmt::format("{}{} % of the way to {}", now.how.empty() ? "" : " and ",
-                                       100. * way, pose.file.filename().string()) };
-        }
+          if (!best.crossing.empty())
+            if (Opening next = opened(pose, ways[k]); next.crossing.size() < best.crossing.size())
+            {
+              best      = std::move(next);
+              best_pose = &pose;
+              best_way  = k;
+            }
+      if (best_pose != nullptr && best_way + 1 < ways.size())
+        if (Opening next = opened(*best_pose, ways[best_way + 1]);
+            next.crossing.size() <= best.crossing.size())
+          return next;
       return best;
     }
 
