@@ -147,6 +147,29 @@ namespace Exemplar
     return result;
   }
 
+  std::vector<bool>
+  SheetRemeshing::are_open(const TriangleSurface &remeshed) const
+  {
+    std::vector<SpaceVector> middles;
+    for (const OpenGap &gap : gaps)
+      middles.push_back(gap.middle);
+    return are_outside(remeshed, middles);
+  }
+
+  /// Forgets gaps that are closed whatever is held: some are too narrow for any other surface.
+  void
+  SheetRemeshing::give_up_closed_gaps(const TriangleSurface &remeshed)
+  {
+    if (gaps.empty())
+      return;
+    const std::vector<bool> open = are_open(remeshed);
+    std::vector<OpenGap>    left;
+    for (std::size_t i = 0; i < gaps.size(); ++i)
+      if (open[i])
+        left.push_back(gaps[i]);
+    gaps = std::move(left);
+  }
+
   /// Holds the triangles beside gaps that are filled in the remeshed surface. Returns whether there
   /// are such gaps.
   bool
@@ -156,10 +179,7 @@ namespace Exemplar
   {
     if (gaps.empty())
       return false;
-    std::vector<SpaceVector> middles;
-    for (const OpenGap &gap : gaps)
-      middles.push_back(gap.middle);
-    const std::vector<bool> open = are_outside(remeshed, middles);
+    const std::vector<bool> open = are_open(remeshed);
     TriangleSurface         places{ {}, {}, {} };
     for (std::size_t i = 0; i < gaps.size(); ++i)
       if (!open[i])
@@ -199,11 +219,13 @@ namespace Exemplar
       TriangleSurface        thinned    = thin(surface, fine, treatments);
       restore_order(surface, thinned);
       std::vector<bool> bad(held.size(), false);
-      if (is_faultless(thinned) ? !mark_closed_gaps(thinned, .5 * distance, bad)
-                                : !mark_near_intersections(surface, thinned, distance, bad))
+      const bool        is_sound = is_faultless(thinned);
+      const bool        has_bad  = is_sound ? mark_closed_gaps(thinned, .5 * distance, bad)
+                                            : mark_near_intersections(surface, thinned, distance, bad);
+      if (!is_sound && !has_bad)
+        break;
+      if (!has_bad)
       {
-        if (!is_faultless(thinned))
-          break;
         surface = std::move(thinned);
         held.clear();
         for (const Treatment treatment : treatments)
@@ -239,6 +261,8 @@ namespace Exemplar
       result   = remesh_in_order(edge_length);
       is_sound = is_faultless(result);
     }
+    if (is_sound)
+      give_up_closed_gaps(result);
     return is_sound;
   }
 

@@ -58,7 +58,7 @@ namespace Exemplar
   class SheetRemeshing
   {
   public:
-    /// Keeps references to gaps and option. `cells_option` is the option by which the user asks for more cells.
+    /// Keeps a reference to `cells_option`, the option by which the user asks for more cells.
     SheetRemeshing(const TriangleSurface      &surface,
                    bool                        keep_edges,
                    NearSheets                  near_sheets,
@@ -79,6 +79,10 @@ namespace Exemplar
   private:
     TriangleSurface
     remesh_in_order(double edge_length);
+    std::vector<bool>
+    are_open(const TriangleSurface &remeshed) const;
+    void
+    give_up_closed_gaps(const TriangleSurface &remeshed);
     bool
     mark_closed_gaps(const TriangleSurface &remeshed,
                      double                 distance,
@@ -90,16 +94,16 @@ namespace Exemplar
     bool
     refine(TriangleSurface &result, double edge_length);
 
-    TriangleSurface             surface; ///< with its held triangles thinned
-    const bool                  keep_edges;
-    const NearSheets            near_sheets;
-    const std::vector<OpenGap> &gaps;
-    const std::string          &cells_option;
-    std::vector<bool>           held;
-    std::vector<bool>           is_thinned; ///< triangles that were thinned, or cannot be
-    unsigned int                n_remeshed = 0;
-    double                      shortening = 1.; ///< factor of the edges' length
-    bool                        met_sheets = false;
+    TriangleSurface      surface; ///< with its held triangles thinned
+    const bool           keep_edges;
+    const NearSheets     near_sheets;
+    std::vector<OpenGap> gaps; ///< those that are not given up
+    const std::string   &cells_option;
+    std::vector<bool>    held;
+    std::vector<bool>    is_thinned; ///< triangles that were thinned, or cannot be
+    unsigned int         n_remeshed = 0;
+    double               shortening = 1.; ///< factor of the edges' length
+    bool                 met_sheets = false;
   };
 } // namespace Exemplar
 
