@@ -87,9 +87,9 @@ namespace Exemplar
     if (name == "PartitionedEntities" || name == "ParametricNodes")
       in.fail("the section is not supported. In gmsh save without partitions "
               "(Mesh.PartitionSplitMeshFiles) and parameters (Mesh.SaveParametric = 0).");
-    const bool known
-        = name == "PhysicalNames" || name == "Entities" || name == "Nodes" || name == "Elements";
-    if (!known || (name == "Entities" && !version_4))
+    const bool known = name == "PhysicalNames" || name == "Entities" || name == "Nodes"
+                       || name == "Elements" || name == "SurfaceTies";
+    if (!known || (name == "Entities" && !version_4) || (name == "SurfaceTies" && in.is_binary()))
       return in.skip_section();
 
     if (!seen.insert(name).second)
@@ -100,6 +100,8 @@ namespace Exemplar
       read_physical_names();
     else if (name == "Entities")
       read_entities();
+    else if (name == "SurfaceTies")
+      read_surface_ties();
     else if (name == "Nodes")
       version_4 ? read_nodes_4() : read_nodes_2();
     else
@@ -140,6 +142,26 @@ namespace Exemplar
       const int dimension                           = in.text_int();
       const int tag                                 = checked_tag(in.text_int());
       msh.physical_names[std::pair(dimension, tag)] = in.text_quoted();
+    }
+  }
+
+  /// Read ties, with node numbers, which resolve_node_numbers() replaces by indices.
+  void
+  MshReader::read_surface_ties()
+  {
+    const std::size_t n_ties = in.text_size();
+    in.begin_count(n_ties, "ties");
+    for (std::size_t i = 0; i < n_ties; ++i, in.count())
+    {
+      SurfaceTie tie;
+      for (std::size_t &node : tie.nodes)
+        node = in.text_size();
+      double sum = 0.;
+      for (double &share : tie.shares)
+        sum += share = in.read_double();
+      if (!(std::abs(sum - 1.) < 1e-3))
+        in.fail(fmt::format("the shares of tie {} do not sum to 1. Make the mesh anew.", i + 1));
+      msh.surface_ties.push_back(tie);
     }
   }
 
@@ -226,6 +248,12 @@ namespace Exemplar
                               "anew, with all its nodes.",
                               element.number, number));
       }
+    for (SurfaceTie &tie : msh.surface_ties)
+      for (std::size_t &node : tie.nodes)
+        if (const std::size_t number = node; !index.find(number, node))
+          in.fail(fmt::format("a tie of the surface uses node {}, which $Nodes does not have. Make "
+                              "the mesh anew.",
+                              number));
   }
 
   MshFile

@@ -36,6 +36,14 @@ namespace Exemplar
         end               = std::to_chars(end, limit, value, std::chars_format::general, 17).ptr;
       }
 
+      /// Write a double with as many digits as reproduce it.
+      void
+      short_real(const double value)
+      {
+        begin_number();
+        end = std::to_chars(end, buffer.data() + buffer.size(), value).ptr;
+      }
+
       void
       end_line()
       {
@@ -116,12 +124,32 @@ namespace Exemplar
     }
 
     void
+    write_surface_ties(const MshFile &msh, std::ostream &out)
+    {
+      if (msh.surface_ties.empty())
+        return;
+      out << fmt::format("$SurfaceTies\n{}\n", msh.surface_ties.size());
+      LineWriter line(out);
+      for (const SurfaceTie &tie : msh.surface_ties)
+      {
+        for (const std::size_t node : tie.nodes)
+          line.integer(msh.node_numbers[node]);
+        for (const double share : tie.shares)
+          line.short_real(share);
+        line.end_line();
+      }
+      line.flush();
+      out << "$EndSurfaceTies\n";
+    }
+
+    void
     write_to(std::ostream &out, const MshFile &msh)
     {
       out << msh_beginning;
       write_physical_names(msh, out);
       write_nodes(msh, out);
       write_elements(msh, out);
+      write_surface_ties(msh, out);
     }
   } // namespace
 

@@ -227,11 +227,22 @@ namespace Exemplar
     std::size_t n_done = 0;
     while (n_done < poses.size() && !is_interrupted())
     {
-      PoseFile &pose = poses[n_done++];
+      PoseFile         &pose = poses[n_done++];
+      const std::string name = printable(pose.file.filename().string());
+      transfer.tell_steps(
+          [&](const unsigned int step)
+          {
+            progress.go_on_with(static_cast<unsigned int>(n_done),
+                                fmt::format("{}, step {}", name, step));
+          });
       failures += carry(transfer, mesh, pose);
-      progress.update(static_cast<unsigned int>(n_done), printable(pose.file.filename().string()));
+      progress.update(static_cast<unsigned int>(n_done), name);
     }
     progress.finish();
+    transfer.tell_steps({});
+    for (std::size_t k = 0; k < n_done; ++k)
+      if (const std::string edge = poses[k].quality.warning_of_edge(); !edge.empty())
+        show_warning(poses[k].file.string() + ": " + edge);
     write_csv(poses, n_done, options.output / "poses.csv");
     if (!options.quiet)
       print_table(poses, n_done);

@@ -2,6 +2,7 @@
 """Lips that cross at rest and part in poses: they stay two sheets."""
 
 import csv
+import re
 import sys
 import unittest
 from pathlib import Path
@@ -35,6 +36,52 @@ class CrossingSheets(SceneTest):
         self.assertEqual(row["inverted_cells"], "0")
         self.assertLess(float(row["surface_error_max"]), 1)
         self.assertLess(float(row["longest_edge"]), 3)
+
+    def test_lids_and_lips_narrower_than_cells_keep_their_gaps_and_follow_their_own_side(self):
+        """Slits half as wide as the cells: cells would fill them, and vertices be tied to the lid across."""
+        triangles, rest, poses = crossing.make("face")
+        for name, x in (("rest", rest), ("open", poses[0]), ("wide", poses[2])):
+            crossing.write(self.directory / f"{name}.obj", x, triangles)
+        run = self.call("mesh", "--surface", "rest.obj", "--cells", 5000, "--output", "body.msh",
+                        "--poses", "open.obj", "wide.obj")
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        self.assertIn(f"$SurfaceTies\n{len(rest)}\n", (self.directory / "body.msh").read_text())
+        run = self.call("pose", "--mesh", "body.msh", "--rest", "rest.obj", "--pose", "open.obj", "wide.obj",
+                        "--output", "out")
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        with open(self.directory / "out/poses.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["inverted_cells"] for row in rows], ["0", "0"])
+        for row in rows:
+            self.assertLess(float(row["surface_error_max"]), 1)
+            self.assertLess(float(row["longest_edge"]), 3)
+
+    def test_edges_that_become_far_too_long_are_warned_of_with_their_place(self):
+        triangles, rest, poses = crossing.make("face")
+        crossing.write(self.directory / "rest.obj", rest, triangles)
+        crossing.write(self.directory / "open.obj", poses[2], triangles)
+        run = self.call("mesh", "--surface", "rest.obj", "--cells", 5000, "--output", "body.msh", "--repair")
+        self.assertEqual(run.status, 0, run.stderr)  # no pose parts the lids: they become one piece
+        run = self.call("pose", "--mesh", "body.msh", "--rest", "rest.obj", "--pose", "open.obj", "--output", "out")
+        self.assertEqual(run.status, 0, run.stderr)
+        with open(self.directory / "out/poses.csv") as file:
+            row = next(csv.DictReader(file))
+        self.assertGreater(float(row["longest_edge"]), 3)
+        found = re.search(r"Warning: open.obj: the edge between vertices (\d+) and (\d+) "
+                          r"\(at (\S+), (\S+), (\S+) in this pose\) becomes (\S+) times as long", run.stderr)
+        self.assertIsNotNone(found, run.stderr)
+        self.assertAlmostEqual(float(found[6]) / float(row["longest_edge"]), 1, 2)
+        middle = (poses[2][int(found[1]) - 1] + poses[2][int(found[2]) - 1]) / 2
+        for c in range(3):
+            self.assertAlmostEqual(float(found[3 + c]), middle[c], 2)
+        # a scene says so, too
+        self.write("scene.prm", prm({
+            "Scene": "static", "Mesh/File": "body.msh", "Mesh/Surface": "rest.obj", "Examples/Poses": "open.obj",
+            "Handles/Names": "nape", "Handles/nape/Select": "box -2 -1 -1 -1 1 1", "Time/Increments": "1"}))
+        run = self.call("scene.prm", "--output", "run", "--quiet", XDG_CACHE_HOME=str(self.directory / "cache"))
+        self.assertEqual(run.status, 0, run.stderr)
+        self.assertTrue(any("times as long as the pose has it" in text
+                            for text in read_summary(self.directory / "run")["warnings"]))
 
     def test_what_no_pose_parts_is_a_fault_with_its_place(self):
         for poses in ((), ("--poses", "shut.obj")):

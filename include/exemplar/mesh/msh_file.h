@@ -4,6 +4,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -22,6 +23,13 @@ namespace Exemplar
     std::vector<size_t> nodes; ///< indices into MshFile::nodes (0-based), in the file's order
   };
 
+  /// The point of a body that carries a vertex of its surface.
+  struct SurfaceTie
+  {
+    std::array<std::size_t, 4> nodes;  ///< indices into MshFile::nodes
+    std::array<double, 4>      shares; ///< barycentric coordinates, sum 1
+  };
+
   /// The contents of a gmsh .msh file: everything needed to write it back with
   /// the same node and element numbers, order and tags.
   struct MshFile
@@ -31,7 +39,11 @@ namespace Exemplar
     std::vector<MshElement>       elements;     ///< elements in file order
     /// (dimension, physical tag) -> name
     std::map<std::pair<int, int>, std::string> physical_names;
-    std::string note = {}; ///< for the user, on conversions of the file; empty: none
+    /// Ties of the vertices of the surface that the mesh was made of, in the surface's order; empty
+    /// where they are those that the places at rest give. A section of our own, $SurfaceTies, has
+    /// them: their number, and a line of four node numbers and four shares each.
+    std::vector<SurfaceTie> surface_ties = {};
+    std::string             note = {}; ///< for the user, on conversions of the file; empty: none
     /// Restrictions of gmsh when it made this of a .geo ("text", "seccomp", "landlock"); no value
     /// if it was not made of one.
     std::optional<std::vector<std::string>> geo_walls = {};

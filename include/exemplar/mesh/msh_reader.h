@@ -31,6 +31,8 @@ namespace Exemplar
     void
     read_entities();
     void
+    read_surface_ties();
+    void
     read_nodes_2();
     void
     read_nodes_4();

@@ -53,6 +53,9 @@ namespace Exemplar
   {
     std::vector<std::string> warnings = made.warnings;
     for (const MadeOfSurfaces::Pose &pose : made.poses)
+      if (const std::string edge = pose.quality.warning_of_edge(); !edge.empty())
+        warnings.push_back(pose.file + ": " + edge);
+    for (const MadeOfSurfaces::Pose &pose : made.poses)
       if (pose.quality.max_error > tolerable_error)
         warnings.push_back(pose.file + ": the mesh is up to " + percent(pose.quality.max_error)
                            + " of its diagonal away from this surface ("

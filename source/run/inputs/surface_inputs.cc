@@ -60,9 +60,9 @@ namespace Exemplar
     std::string
     to_text(const PoseQuality &q)
     {
-      return Json{ q.n_inverted, q.min_det,    q.max_det,     q.min_stretch,
-                   q.stretch_1,  q.stretch_99, q.max_stretch, q.mean_error,
-                   q.max_error,  q.rotation,   q.shift,       q.longest_edge }
+      return Json{ q.n_inverted, q.min_det,      q.max_det,    q.min_stretch, q.stretch_1,
+                   q.stretch_99, q.max_stretch,  q.mean_error, q.max_error,   q.rotation,
+                   q.shift,      q.longest_edge, q.edge,       q.edge_place }
           .dump();
     }
 
@@ -77,6 +77,8 @@ namespace Exemplar
            { &q.min_det, &q.max_det, &q.min_stretch, &q.stretch_1, &q.stretch_99, &q.max_stretch,
              &q.mean_error, &q.max_error, &q.rotation, &q.shift, &q.longest_edge })
         *number = n.at(i++);
+      q.edge       = n.at(i).get<decltype(q.edge)>();
+      q.edge_place = n.at(i + 1).get<decltype(q.edge_place)>();
       return q;
     }
   } // namespace

@@ -213,6 +213,46 @@ namespace Exemplar
   } // namespace
 
   TriangleSurface
+  thin(const TriangleSurface &surface, const double edge_length, std::vector<Treatment> &treatments)
+  {
+    // borders of groups stay: each treatment gets groups of its own
+    const unsigned int n_groups
+        = 1 + *std::max_element(surface.groups.begin(), surface.groups.end());
+    TriangleSurface   marked = surface;
+    std::vector<bool> others(treatments.size());
+    for (std::size_t t = 0; t < treatments.size(); ++t)
+    {
+      marked.groups[t] += static_cast<unsigned int>(treatments[t]) * n_groups;
+      others[t] = treatments[t] != Treatment::thinned;
+    }
+    TriangleSurface result = remesh_holding(
+        marked, edge_length, false, { std::vector<bool>(surface.vertices.size(), false), others });
+    treatments.clear();
+    for (unsigned int &group : result.groups)
+    {
+      treatments.push_back(static_cast<Treatment>(group / n_groups));
+      group %= n_groups;
+    }
+    return result;
+  }
+
+  bool
+  has_sharp_edges(const TriangleSurface &surface, const double edge_length)
+  {
+    CgalMesh   mesh = make_cgal_mesh(surface);
+    const Kept kept = mesh.add_property_map<CgalMesh::Edge_index, bool>("e:kept", false).first;
+    for (const double length : { edge_length, 2. * edge_length })
+    {
+      Kept now = kept;
+      keep_sharp_edges(mesh, length, now);
+      for (const auto edge : mesh.edges())
+        if (now[edge])
+          return true;
+    }
+    return false;
+  }
+
+  TriangleSurface
   remesh(const TriangleSurface   &surface,
          const double             edge_length,
          const bool               keep_edges,

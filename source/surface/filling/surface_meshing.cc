@@ -16,6 +16,12 @@
 
 namespace Exemplar
 {
+  double
+  edge_length_of(const TriangleSurface &surface, const double n_cells)
+  {
+    return std::cbrt(10. * std::abs(enclosed_volume(surface)) / n_cells);
+  }
+
   namespace
   {
     /// Quality of a mesh: angles of its cells and distances to the surface.
@@ -165,14 +171,6 @@ namespace Exemplar
                             + cells_option + ").");
     }
 
-    /// Estimated edge length of a body with so many cells: in gmsh's meshes a cell has about a
-    /// tenth of the volume of the cube over its edge.
-    double
-    edge_length_of(const TriangleSurface &surface, const double n_cells)
-    {
-      return std::cbrt(10. * std::abs(enclosed_volume(surface)) / n_cells);
-    }
-
     /// A surface with many times the triangles that cells of this size can follow, remeshed with
     /// edges of a part of their size, so that attempts to fill it take no longer than those of a
     /// coarse one; the surface itself if it has fewer, or cannot be remeshed without intersections.
@@ -188,9 +186,9 @@ namespace Exemplar
       try
       {
         require_few_triangles(surface, edge_length, n_cells, cells_option);
-        return remesh_without_intersections(surface, edge_length, true, NearSheets::held,
-                                            cells_option)
-            .surface;
+        const std::vector<OpenGap> no_gaps;
+        return SheetRemeshing(surface, true, NearSheets::held, no_gaps, cells_option)
+            .remesh(edge_length);
       }
       catch (const SolverFailure &)
       {
@@ -211,11 +209,13 @@ namespace Exemplar
               const double                 n_cells,
               const bool                   keep_edges,
               const NearSheets             near_sheets,
+              const std::vector<OpenGap>  &gaps,
               const SurfaceMeshingOptions &options)
     {
-      double        h     = edge_length_of(surface, n_cells);
-      double        power = 3., last_h = 0., last_n = 0., best_error = 0.;
-      FilledSurface best;
+      SheetRemeshing remeshing(surface, keep_edges, near_sheets, gaps, options.cells_option);
+      double         h     = edge_length_of(surface, n_cells);
+      double         power = 3., last_h = 0., last_n = 0., best_error = 0.;
+      FilledSurface  best;
       for (unsigned int attempt = 0; attempt < n_attempts; ++attempt)
       {
         TetrahedralMesh mesh;
@@ -223,10 +223,7 @@ namespace Exemplar
         try
         {
           require_few_triangles(surface, h, n_cells, options.cells_option);
-          const Remeshed remeshed = remesh_without_intersections(surface, h, keep_edges,
-                                                                 near_sheets, options.cells_option);
-          best.has_near_sheets    = best.has_near_sheets || remeshed.has_near_sheets;
-          mesh                    = fill(remeshed.surface);
+          mesh = fill(remeshing.remesh(h));
         }
         catch (const SolverFailure &)
         {
@@ -252,6 +249,7 @@ namespace Exemplar
         if (h == last_h)
           break; // no better edge length
       }
+      best.has_near_sheets = remeshing.has_near_sheets();
       return best;
     }
 
@@ -283,26 +281,33 @@ namespace Exemplar
     best_of_ways(const BodySurface           &body,
                  const TriangleSurface       &surface,
                  const double                 n_cells,
+                 const std::vector<OpenGap>  &gaps,
                  const SurfaceMeshingOptions &options,
                  JudgedMesh                   best)
     {
-      for (const bool keep_edges : { true, false })
+      const bool        is_sharp = has_sharp_edges(surface, .5 * edge_length_of(surface, n_cells));
+      std::vector<bool> keeping{ true };
+      if (is_sharp)
+        keeping.push_back(false); // otherwise it gives the same
+      for (const bool keep_edges : keeping)
         for (const NearSheets near_sheets : { NearSheets::held, NearSheets::refined })
           try
           {
-            FilledSurface filled = fill_with(surface, n_cells, keep_edges, near_sheets, options);
+            FilledSurface filled
+                = fill_with(surface, n_cells, keep_edges, near_sheets, gaps, options);
             remove_slivers(filled.mesh);
             const Judgement now = judge(body, filled.mesh);
             if (is_better(now, best))
               best = { std::move(filled.mesh), now };
             if (best.judgement.angles.n_slivers == 0)
               return best;
-            if (!filled.has_near_sheets)
-              break; // the other treatment would give the same
+            if (!filled.has_near_sheets || !gaps.empty())
+              break; // the other treatment would give the same, or no better gaps
           }
           catch (const SolverFailure &)
           {
-            if (!keep_edges && near_sheets == NearSheets::refined && best.mesh.cells.empty())
+            if (keep_edges == keeping.back() && near_sheets == NearSheets::refined
+                && best.mesh.cells.empty())
               throw;
           }
       return best;
@@ -311,7 +316,9 @@ namespace Exemplar
     /// The best mesh; for few cells, where slivers may go with the number of cells, other numbers
     /// are tried, too.
     JudgedMesh
-    best_mesh(const BodySurface &body, const SurfaceMeshingOptions &options)
+    best_mesh(const BodySurface           &body,
+              const std::vector<OpenGap>  &gaps,
+              const SurfaceMeshingOptions &options)
     {
       constexpr std::size_t few = 1000, quickly_remeshed = 20000;
       options.tell(MeshingStage::thinning);
@@ -321,7 +328,8 @@ namespace Exemplar
       JudgedMesh best;
       for (const double factor : { 1., 1.07, .93, 1.14, .88 })
         if (factor == 1. || (is_quick && best.judgement.angles.n_slivers > 0))
-          best = best_of_ways(body, surface, factor * options.n_cells, options, std::move(best));
+          best = best_of_ways(body, surface, factor * options.n_cells, gaps, options,
+                              std::move(best));
       return best;
     }
   } // namespace
@@ -330,7 +338,7 @@ namespace Exemplar
   mesh_surface(const SurfaceMeshingOptions &options)
   {
     const SurfaceMesh read = read_surface(options.surface);
-    return mesh_surface_at(read, { read.vertices, {}, {} }, options);
+    return mesh_surface_at(read, { read.vertices, {}, {}, {} }, options);
   }
 
   MeshedSurface
@@ -344,7 +352,7 @@ namespace Exemplar
     SurfaceMesh placed = rest;
     placed.vertices    = place.vertices;
     BodySurface body   = make_body_surface(placed, options);
-    JudgedMesh  judged = best_mesh(body, options);
+    JudgedMesh  judged = best_mesh(body, place.gaps, options);
     options.tell(MeshingStage::measuring);
     if (place.carry_back)
     {

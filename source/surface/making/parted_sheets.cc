@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/surface/files/numbered_files.h>
 #include <exemplar/surface/filling/cell_angles.h>
 #include <exemplar/surface/making/parted_sheets.h>
 #include <exemplar/surface/posing/pose_carrying.h>
+#include <exemplar/surface/shape/narrow_gaps.h>
 #include <exemplar/surface/shape/surface_checks.h>
 #include <exemplar/surface/shape/surface_geometry.h>
 #include <exemplar/surface/shape/triangle_surface.h>
+#include <exemplar/surface/skin/surface_anchors.h>
 
 #include <fmt/core.h>
 
@@ -150,27 +154,39 @@ namespace Exemplar
     }
 
     /// The opening with one more pose added that leaves the fewest pairs crossing, by the smallest
-    /// share of the way to it that does; or `now` itself.
+    /// share of the way to it that does, and if it may be the next one, as sheets that have just
+    /// parted almost touch; or `now` itself.
     Opening
     opened_further(const Opening               &now,
                    const Vertices              &rest,
                    const std::vector<NearPose> &poses,
                    const SheetCrossings        &crossings)
     {
-      Opening best = now;
-      for (const double way : ways)
+      const auto opened = [&](const NearPose &pose, const double way)
+      {
+        Vertices vertices = on_the_way(now.vertices, rest, pose.vertices, way);
+        Pairs    pairs    = crossings.pairs(vertices);
+        return Opening{ std::move(vertices), std::move(pairs),
+                        now.how
+                            + fmt::format("{}{} % of the way to {}", now.how.empty() ? "" : " and ",
+                                          100. * way, pose.file.filename().string()) };
+      };
+      Opening         best      = now;
+      const NearPose *best_pose = nullptr;
+      std::size_t     best_way  = 0;
+      for (std::size_t k = 0; k < ways.size(); ++k)
         for (const NearPose &pose : poses)
-        {
-          if (best.crossing.empty())
-            return best;
-          Vertices vertices = on_the_way(now.vertices, rest, pose.vertices, way);
-          Pairs    pairs    = crossings.pairs(vertices);
-          if (pairs.size() < best.crossing.size())
-            best = { std::move(vertices), std::move(pairs),
-                     now.how
-                         + fmt::format("{}{} % of the way to {}", now.how.empty() ? "" : " and ",
-                                       100. * way, pose.file.filename().string()) };
-        }
+          if (!best.crossing.empty())
+            if (Opening next = opened(pose, ways[k]); next.crossing.size() < best.crossing.size())
+            {
+              best      = std::move(next);
+              best_pose = &pose;
+              best_way  = k;
+            }
+      if (best_pose != nullptr && best_way + 1 < ways.size())
+        if (Opening next = opened(*best_pose, ways[best_way + 1]);
+            next.crossing.size() <= best.crossing.size())
+          return next;
       return best;
     }
 
@@ -214,6 +230,51 @@ namespace Exemplar
       return notes;
     }
 
+    SpaceVector
+    place_in(const TriangleSurface &surface, const SurfacePoint &point, const Vertices &vertices)
+    {
+      SpaceVector place{ { 0., 0., 0. } };
+      for (int a = 0; a < 3; ++a)
+        place = plus(place, point.share[a], vertices[surface.triangles[point.triangle][a]]);
+      return place;
+    }
+
+    /// Gaps narrower than the cells whose sheets go apart or together by more than
+    /// least_parting times the diagonal in a pose: if cells filled them, the sheets would hang
+    /// together.
+    std::vector<OpenGap>
+    parting_gaps(const TriangleSurface       &placed,
+                 const std::vector<NearPose> &poses,
+                 const double                 n_cells)
+    {
+      constexpr double     least_parting = .003;
+      const double         least         = least_parting * diagonal_of(placed.vertices);
+      std::vector<OpenGap> result;
+      for (const NarrowGap &gap : narrow_gaps(placed, edge_length_of(placed, n_cells)))
+      {
+        const auto width = [&](const Vertices &vertices) {
+          return norm(
+              minus(place_in(placed, gap.near, vertices), place_in(placed, gap.far, vertices)));
+        };
+        const double before = width(placed.vertices);
+        if (std::any_of(poses.begin(), poses.end(),
+                        [&](const NearPose &pose)
+                        { return std::abs(width(pose.vertices) - before) > least; }))
+          result.push_back({ place_in(placed, gap.near, placed.vertices), gap.middle });
+      }
+      return result;
+    }
+
+    std::vector<SurfaceTie>
+    ties_where_open(const SurfaceMesh     &rest,
+                    const Vertices        &vertices,
+                    const TetrahedralMesh &filled)
+    {
+      SurfaceMesh open = rest;
+      open.vertices    = vertices;
+      return make_ties(open, Mesh(make_msh(as_points(filled.nodes), filled.cells), "the cells"));
+    }
+
     /// Moves the cells that fill the surface at `from` to where they fill it at `to`.
     void
     carry_cells(TetrahedralMesh &mesh, const TriangleSurface &from, const Vertices &to)
@@ -250,16 +311,27 @@ namespace Exemplar
     const TriangleSurface       triangles = triangulate(rest.surface);
     const SheetCrossings        crossings(triangles);
     const Opening               opening = find_opening(rest.surface.vertices, poses, crossings);
+    TriangleSurface             open    = triangles;
+    open.vertices                       = opening.vertices;
+    const std::vector<OpenGap> gaps     = opening.crossing.empty()
+                                              ? parting_gaps(open, poses, options.n_cells)
+                                              : std::vector<OpenGap>{};
     if (opening.how.empty() && opening.crossing.empty())
-      return mesh_surface(options);
-    TriangleSurface open = triangles;
-    open.vertices        = opening.vertices;
+      return mesh_surface_at(rest.surface, { rest.surface.vertices, {}, {}, gaps }, options);
     std::function<void(TetrahedralMesh &)> back;
+    std::vector<SurfaceTie>                ties;
     if (!opening.how.empty())
-      back = [&](TetrahedralMesh &mesh) { carry_cells(mesh, open, rest.surface.vertices); };
-    return mesh_surface_at(rest.surface,
-                           { opening.vertices, back,
-                             notes_on(opening, triangles, crossings.pairs(rest.surface.vertices)) },
-                           options);
+      back = [&](TetrahedralMesh &mesh)
+      {
+        ties = ties_where_open(rest.surface, opening.vertices, mesh);
+        carry_cells(mesh, open, rest.surface.vertices);
+      };
+    MeshedSurface meshed = mesh_surface_at(
+        rest.surface,
+        { opening.vertices, back,
+          notes_on(opening, triangles, crossings.pairs(rest.surface.vertices)), gaps },
+        options);
+    meshed.mesh.surface_ties = std::move(ties);
+    return meshed;
   }
 } // namespace Exemplar

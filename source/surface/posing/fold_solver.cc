@@ -252,6 +252,8 @@ namespace Exemplar
       slope -= gradient[k] * direction[k];
     const double before = potential.value(result.x, eps);
     ++result.iterations;
+    if (tell)
+      tell(result.iterations);
     for (double length = 1.; length > 1e-10; length *= 0.5)
     {
       Points       x     = moved(result.x, direction, -length);

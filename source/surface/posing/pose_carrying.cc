@@ -135,6 +135,12 @@ namespace Exemplar
   }
 
   void
+  PoseTransfer::tell_steps(const std::function<void(unsigned int)> &tell)
+  {
+    solver.tell = tell;
+  }
+
+  void
   PoseTransfer::draw_skin_nearer(FoldSolver::Result &result, const Points &places)
   {
     potential->skin = SkinSprings(*skin, measured, nodes, places);
@@ -224,8 +230,13 @@ namespace Exemplar
     }
     for (const auto &[a, b] : edges)
       if (const double own = norm(minus(vertices[a], vertices[b])); own > 0.)
-        quality.longest_edge
-            = std::max(quality.longest_edge, norm(minus(places[a], places[b])) / own);
+        if (const double ratio = norm(minus(places[a], places[b])) / own;
+            ratio > quality.longest_edge)
+        {
+          quality.longest_edge = ratio;
+          quality.edge         = { { a + 1U, b + 1U } };
+          quality.edge_place   = plus(vertices[a], .5, minus(vertices[b], vertices[a]));
+        }
   }
 
   RestSurface::RestSurface(const std::filesystem::path &file)

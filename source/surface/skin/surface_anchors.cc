@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Exemplar
 {
@@ -249,6 +250,33 @@ namespace Exemplar
       return anchors;
     }
 
+    /// The anchors that the mesh's own ties give; none if it has no ties, or they are those of
+    /// another surface: of another number of vertices, or far from them.
+    std::vector<SurfaceAnchor>
+    tied_anchors(const SurfaceMesh &surface, const Mesh &mesh)
+    {
+      const auto                &ties = mesh.contents_of_whole().surface_ties;
+      std::vector<SurfaceAnchor> anchors;
+      if (ties.empty() || ties.size() != surface.vertices.size()
+          || mesh.contents_of_whole().nodes.size() != mesh.n_nodes())
+        return anchors;
+      double sum = 0.;
+      for (std::size_t v = 0; v < ties.size(); ++v)
+      {
+        SurfaceAnchor anchor{ {}, ties[v].shares, {} };
+        for (int a = 0; a < 4; ++a)
+        {
+          anchor.nodes[a] = static_cast<unsigned int>(ties[v].nodes[a]);
+          anchor.place += anchor.shares[a] * mesh.get_nodes()[anchor.nodes[a]];
+        }
+        sum += anchor.place.distance(point_at(surface.vertices[v]));
+        anchors.push_back(anchor);
+      }
+      if (sum > mean_outside * mesh.diameter() * static_cast<double>(ties.size()))
+        anchors.clear();
+      return anchors;
+    }
+
     /// Mean distance of the nodes on the mesh's boundary from a surface [unit of both].
     double
     mean_distance_of_boundary(const Mesh &mesh, const TriangleSurface &surface)
@@ -298,7 +326,28 @@ namespace Exemplar
   std::vector<SurfaceAnchor>
   find_anchors(const SurfaceMesh &surface, const Mesh &mesh)
   {
-    return AnchorFinder(mesh).find(surface);
+    std::vector<SurfaceAnchor> tied = tied_anchors(surface, mesh);
+    return tied.empty() ? AnchorFinder(mesh).find(surface) : tied;
+  }
+
+  std::vector<SurfaceTie>
+  make_ties(const SurfaceMesh &surface, const Mesh &mesh)
+  {
+    constexpr double        digits = 1e6; // finer ones would not be seen
+    std::vector<SurfaceTie> ties;
+    for (const SurfaceAnchor &anchor : find_anchors(surface, mesh))
+    {
+      SurfaceTie tie{ { { anchor.nodes[0], anchor.nodes[1], anchor.nodes[2], anchor.nodes[3] } },
+                      { { 1., 0., 0., 0. } } };
+      for (int a = 1; a < 4; ++a)
+      {
+        tie.shares[a] = std::round(digits * anchor.shares[a]) / digits;
+        tie.shares[0] -= tie.shares[a];
+      }
+      tie.shares[0] = std::round(digits * tie.shares[0]) / digits;
+      ties.push_back(tie);
+    }
+    return ties;
   }
 
   void

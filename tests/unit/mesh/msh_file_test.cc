@@ -2,10 +2,13 @@
 #include "expect_contains.h"
 #include "msh_bytes.h"
 
+#include <exemplar/mesh/mesh_inputs.h>
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <fstream>
+#include <map>
 
 namespace Exemplar::Testing
 {
@@ -31,6 +34,30 @@ namespace Exemplar::Testing
       write_msh(msh, directory / "copy.msh");
       EXPECT_TRUE(equal(read_msh(directory / "copy.msh"), msh));
       EXPECT_FALSE(std::filesystem::exists(directory / "copy.msh.tmp"));
+    }
+
+    TEST_F(MshFileTest, TiesOfTheSurfaceGoByNodeNumbers)
+    {
+      MshFile mesh           = make_msh({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } },
+                                        { { { 0, 1, 2, 3 } } });
+      mesh.node_numbers      = { 7, 3, 9, 5 };
+      mesh.surface_ties      = { { { { 1, 0, 3, 2 } }, { { .1, .2, .3, .4 } } },
+                                 { { { 2, 2, 2, 2 } }, { { 1., 0., 0., 0. } } } };
+      const std::string text = msh_text(mesh);
+      EXPECT_NE(
+          text.find("$SurfaceTies\n2\n3 7 5 9 0.1 0.2 0.3 0.4\n9 9 9 9 1 0 0 0\n$EndSurfaceTies\n"),
+          std::string::npos);
+      const MshFile read = read_msh_bytes(text, "tied.msh");
+      ASSERT_EQ(read.surface_ties.size(), 2u);
+      EXPECT_EQ(read.surface_ties[0].nodes, mesh.surface_ties[0].nodes);
+      EXPECT_EQ(read.surface_ties[0].shares, mesh.surface_ties[0].shares);
+      for (const auto &[from, to] : std::map<std::string, std::string>{
+               { "3 7 5 9", "3 8 5 9" }, { "0.1 0.2", "0.1 0.7" }, { "0.1 0.2", "0.1 nan" } })
+      {
+        std::string bad = text;
+        bad.replace(bad.find(from), from.size(), to);
+        EXPECT_THROW(read_msh_bytes(bad, "bad.msh"), UserError) << to;
+      }
     }
 
     TEST_F(MshFileTest, WritesGmshSyntax)

@@ -3,6 +3,7 @@
 #define exemplar_surface_meshing_h
 
 #include <exemplar/mesh/msh_file.h>
+#include <exemplar/surface/filling/surface_remeshing.h>
 #include <exemplar/surface/filling/tetrahedra_inside.h>
 
 #include <functional>
@@ -55,7 +56,13 @@ namespace Exemplar
     std::vector<SurfaceMesh::Vertex>       vertices;
     std::function<void(TetrahedralMesh &)> carry_back; ///< empty: `vertices` are at rest
     std::vector<std::string>               notes;      ///< lines for the user
+    std::vector<OpenGap>                   gaps;       ///< gaps that are to stay open
   };
+
+  /// Estimated edge length of a body with so many cells: in gmsh's meshes a cell has about a tenth
+  /// of the volume of the cube over its edge.
+  double
+  edge_length_of(const TriangleSurface &surface, double n_cells);
 
   /// Read a surface, check it (and mend it, if that is wished), make its edges as long as the
   /// number of cells wants, fill it with tetrahedra and remove flat ones. Places are those of the

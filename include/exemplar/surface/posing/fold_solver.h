@@ -4,6 +4,7 @@
 
 #include <exemplar/surface/posing/fold_potential.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -72,6 +73,9 @@ namespace Exemplar
     /// last.
     void
     draw_nearer(Result &result, const std::vector<double> &stiffness);
+
+    /// Called after each step of Newton's method in the whole body, with their number; or empty.
+    std::function<void(unsigned int)> tell;
 
   private:
     Points

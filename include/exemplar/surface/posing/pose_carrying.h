@@ -32,6 +32,10 @@ namespace Exemplar
     void
     follow_skin(const SurfaceMesh &rest, const Mesh &mesh);
 
+    /// Calls `tell` after each step on the way to a pose, with their number.
+    void
+    tell_steps(const std::function<void(unsigned int)> &tell);
+
     /// Places of the nodes [m] for a pose, given by its vertices [m].
     Points
     carry(const SurfaceAttachment::Vertices &vertices, PoseQuality &quality);

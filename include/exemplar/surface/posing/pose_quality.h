@@ -2,6 +2,9 @@
 #ifndef exemplar_pose_quality_h
 #define exemplar_pose_quality_h
 
+#include <array>
+#include <string>
+
 namespace Exemplar
 {
   /// Quality of a pose on tetrahedra. Stretches are singular values of F, over all cells.
@@ -12,9 +15,20 @@ namespace Exemplar
     double       min_stretch = 0., stretch_1 = 0., stretch_99 = 0., max_stretch = 0.;
     double       mean_error = 0., max_error = 0.; ///< distances to the pose, over its diagonal
     double       longest_edge = 0.; ///< carried over posed length, greatest ratio of an edge
-    double       rotation     = 0.; ///< angle of the rigid motion that was removed [degrees]
-    double       shift        = 0.; ///< displacement of the boundary's middle by that motion [m]
+    /// Its vertices, from 1, and the middle between them in the pose [unit of the file].
+    std::array<std::size_t, 2> edge{};
+    std::array<double, 3>      edge_place{};
+    double       rotation   = 0.; ///< angle of the rigid motion that was removed [degrees]
+    double       shift      = 0.; ///< displacement of the boundary's middle by that motion [m]
     unsigned int iterations = 0, releases = 0;
+
+    /// An edge that becomes longer than this times its length in the file hangs on a part of the
+    /// body which is not its own.
+    static constexpr double tolerable_edge = 3.;
+
+    /// A sentence on the longest edge, if it is longer than that; otherwise empty.
+    std::string
+    warning_of_edge() const;
   };
 } // namespace Exemplar
 

@@ -2,6 +2,7 @@
 #ifndef exemplar_surface_anchors_h
 #define exemplar_surface_anchors_h
 
+#include <exemplar/mesh/msh_file.h>
 #include <exemplar/surface/shape/surface_mesh.h>
 
 #include <deal.II/base/point.h>
@@ -26,8 +27,15 @@ namespace Exemplar
   /// and that point. Where sheets overlap at rest, a vertex of one sheet that lies inside cells of
   /// the other is anchored to its own sheet: that of its nearest boundary, and of its neighbours on
   /// the surface (put_on_own_sheets()).
+  /// If the mesh has ties of a surface of as many vertices that lies where this one does, the anchors
+  /// are these ties (make_ties()).
   std::vector<SurfaceAnchor>
   find_anchors(const SurfaceMesh &surface, const Mesh &mesh);
+
+  /// The anchors of a surface where it was filled, for the record of the mesh that comes of it: where
+  /// sheets that overlap at rest are apart, each vertex is nearest to its own.
+  std::vector<SurfaceTie>
+  make_ties(const SurfaceMesh &surface, const Mesh &mesh);
 
   /// Throws UserError unless the surface [m] may be that of the mesh: no vertex of its faces is far
   /// outside, and the mesh's boundary is not far from it. Lengths in the message are in the unit
