@@ -138,11 +138,12 @@ namespace Exemplar
   namespace SlopeEntry
   {
     constexpr std::size_t value = 0, by_F = 1,
-                          by_gradients = 10, ///< F^T by_F + dF^T by_dF
+                          by_gradients = 10,      ///< F^T by_F + dF^T by_dF
         by_target = 19, by_change_of_target = 25, ///< symmetric: six numbers
-        by_constants = 31, by_importance = 33,
-                          is_guarded = 34, ///< 1: what is found counts for nothing
-        size = 35;
+        by_targets_size = 31, ///< by a factor of the target and its change, where that is 1
+        by_constants = 32, by_importance = 34,
+                          is_guarded = 35, ///< 1: what is found counts for nothing
+        size                         = 36;
   } // namespace SlopeEntry
 
   /// Direction and output of the loop that finds slopes.

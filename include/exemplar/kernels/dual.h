@@ -20,6 +20,8 @@ namespace Exemplar
   {
     static constexpr std::size_t n_derivatives = n;
 
+    using Value = Real;
+
     Real                value = Real(0.);
     std::array<Real, n> by    = zeros(std::make_index_sequence<n>());
 
@@ -82,7 +84,7 @@ namespace Exemplar
     static std::array<Real, n>
     zeros(std::index_sequence<k...> /*derivatives*/)
     {
-      return { ((void)k, Real(0.))... };
+      return { { ((void) k, Real(0.))... } };
     }
   };
 

@@ -68,7 +68,7 @@ namespace Exemplar
     Matrix3<Number> by_F, by_change_of_F;
     Matrix3<Number> by_target, by_change_of_target; ///< 0 without a target
     Number          by_constants[n_constants];
-    Number by_importance; ///< by ExampleNumbers::importance, at a fixed target
+    Number          by_importance; ///< by ExampleNumbers::importance, at a fixed target
 
     /// Where the guard of Eq. (16) acts; the derivatives are wrong there.
     decltype(Number() < Number()) is_guarded;

@@ -11,17 +11,19 @@
 
 namespace Exemplar::Laws
 {
-  /// The places of derivatives behind that along the direction.
-  enum OfSlope : std::size_t
+  /// The derivatives that numbers carry behind their change along the direction: by the first
+  /// constants, and by the importance in laws whose own energy depends on it. An energy density of
+  /// lambda and mu alone, all in Pa, is homogeneous in these, from which that by mu follows.
+  template <typename Cell>
+  struct OfSlope
   {
-    by_constants  = 1,
-    by_importance = 3
+    static constexpr bool        is_homogeneous = Cell::Constants::n_numbers == 2;
+    static constexpr std::size_t n_constants    = is_homogeneous ? 1 : 2;
+    static constexpr std::size_t by_constants   = 1;
+    static constexpr std::size_t by_importance  = by_constants + n_constants;
+    static constexpr std::size_t size
+        = by_importance + (Cell::traits.has_volumetric_energy ? 1 : 0);
   };
-
-  /// A number with its change along the direction and its derivatives by the constants, and by the
-  /// importance in laws whose own energy depends on it.
-  template <bool has_volumetric_energy, typename Number>
-  using SlopeNumber = Dual<has_volumetric_energy ? 4 : 3, Number>;
 
   template <typename Along, typename Number>
   inline Matrix3<Along>
@@ -48,11 +50,11 @@ namespace Exemplar::Laws
 
   template <typename Along>
   inline ExampleNumbers<Along>
-  examples_along(const ExampleConstants &examples)
+  examples_along(const ExampleConstants &examples, const std::size_t by_importance)
   {
     ExampleNumbers<Along> result{ Along(examples.guard_bound), Along(examples.importance) };
-    if constexpr (Along::n_derivatives > by_importance)
-      result.importance.by[by_importance] = 1.;
+    if (by_importance < Along::n_derivatives)
+      result.importance.by[by_importance] = typename Along::Value(1.);
     return result;
   }
 
@@ -61,19 +63,21 @@ namespace Exemplar::Laws
   [[gnu::flatten]] void
   slope(const LawInput<Number> &in, const LawChange<Number> &change, LawSlope<Number> &out)
   {
+    using Of = OfSlope<Cell>;
     const ShapeAtPoint<Number> shape(Cell::traits.has_rotations, in.R, in.F, change.F);
-    const auto constants = Cell::Constants::from_numbers(
+    const auto                 constants = Cell::Constants::from_numbers(
         [&in](const std::size_t k)
         {
           Along number;
           number.value = Lanes<Number>::load(in.constants + k * batch_size);
-          if (k < LawSlope<Number>::n_constants)
-            number.by[by_constants + k] = Number(1.);
+          if (k < Of::n_constants)
+            number.by[Of::by_constants + k] = Number(1.);
           return number;
         });
     const Matrix3<Along> D = along<Along>(in.target, change.target);
-    Cell cell(constants, identity_matrix<Along>(), along<Along>(shape.get().value, shape.get().change),
-              examples_along<Along>(in.examples));
+    Cell                 cell(constants, identity_matrix<Along>(),
+                              along<Along>(shape.get().value, shape.get().change),
+                              examples_along<Along>(in.examples, Of::by_importance));
     out.is_guarded = cell.is_guarded();
     cell.set_target(D);
     Matrix3<Along> T = cell.force(), Q{};
@@ -86,18 +90,23 @@ namespace Exemplar::Laws
       const Number of_shape = contract(parts<Number>(T, part), shape.get().change);
       return in.has_target ? of_shape + contract(parts<Number>(Q, part), change.target) : of_shape;
     };
-    const auto value = [](const Along &number) { return number.value; };
+    const auto value   = [](const Along &number) { return number.value; };
     const auto changed = [](const Along &number) { return number.by[0]; };
-    out.value        = slope_of(value);
-    for (std::size_t k = 0; k < LawSlope<Number>::n_constants; ++k)
-      out.by_constants[k] = slope_of([k](const Along &number) { return number.by[by_constants + k]; });
+    out.value          = slope_of(value);
+    for (std::size_t k = 0; k < Of::n_constants; ++k)
+      out.by_constants[k]
+          = slope_of([k](const Along &number) { return number.by[Of::by_constants + k]; });
+    if constexpr (Of::is_homogeneous)
+      out.by_constants[1] = (out.value - constants.number(0).value * out.by_constants[0])
+                            / constants.number(1).value;
     out.by_importance = Number(0.);
-    if constexpr (Along::n_derivatives > by_importance)
-      out.by_importance = slope_of([](const Along &number) { return number.by[by_importance]; });
-    const auto of_F = shape.derivatives({ parts<Number>(T, value), parts<Number>(T, changed) });
-    out.by_F                = of_F.by_F;
-    out.by_change_of_F      = of_F.by_dF;
-    out.by_target           = parts<Number>(Q, changed);
+    if constexpr (Of::by_importance < Along::n_derivatives)
+      out.by_importance
+          = slope_of([](const Along &number) { return number.by[Of::by_importance]; });
+    const auto of_F    = shape.derivatives({ parts<Number>(T, value), parts<Number>(T, changed) });
+    out.by_F           = of_F.by_F;
+    out.by_change_of_F = of_F.by_dF;
+    out.by_target      = parts<Number>(Q, changed);
     out.by_change_of_target = parts<Number>(Q, value);
   }
 } // namespace Exemplar::Laws

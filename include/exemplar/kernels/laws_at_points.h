@@ -196,7 +196,7 @@ namespace Exemplar::Laws
   slope_of()
   {
     using Cell  = std::tuple_element_t<law, CellLaws<Number>>;
-    using Along = SlopeNumber<Cell::traits.has_volumetric_energy, Number>;
+    using Along = Dual<OfSlope<Cell>::size, Number>;
     if constexpr (has_potential<Cell>)
       return slope<std::tuple_element_t<law, CellLaws<Along>>, Along, Number>;
     else

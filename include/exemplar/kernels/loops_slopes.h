@@ -90,17 +90,17 @@ namespace Exemplar::Loops
     LawInput<Number>            in;
     LawChange<Number>           change{};
     LawValue<Number>            value;
-    for_each_group_of_law<Number>(
-        task.cells, begin, end,
-        [&](const LaneGroup<Number> &group)
-        {
-          load_slope<Number, n_nodes>(task, slope, law, group, in, change);
-          law.evaluate(in, false, value);
-          store(task.cells, group,
-                load(task.cells.volumes, group, 1, 0)
-                    * contract(value.P, transpose_times(in.R, change.F)),
-                slope.found);
-        });
+    for_each_group_of_law<Number>(task.cells, begin, end,
+                                  [&](const LaneGroup<Number> &group)
+                                  {
+                                    load_slope<Number, n_nodes>(task, slope, law, group, in,
+                                                                change);
+                                    law.evaluate(in, false, value);
+                                    store(task.cells, group,
+                                          load(task.cells.volumes, group, 1, 0)
+                                              * contract(value.P, transpose_times(in.R, change.F)),
+                                          slope.found);
+                                  });
   }
 
   template <typename Number, int n_nodes>
@@ -130,6 +130,10 @@ namespace Exemplar::Loops
                          transpose_times(change.F, of_law.by_change_of_F)));
           to.set(SlopeEntry::by_target, pack(times(V, of_law.by_target)));
           to.set(SlopeEntry::by_change_of_target, pack(times(V, of_law.by_change_of_target)));
+          to.set(SlopeEntry::by_targets_size,
+                 V
+                     * (contract(of_law.by_target, in.target)
+                        + contract(of_law.by_change_of_target, change.target)));
           for (std::size_t k = 0; k < of_law.n_constants; ++k)
             to.set(SlopeEntry::by_constants + k, V * of_law.by_constants[k]);
           to.set(SlopeEntry::by_importance, V * of_law.by_importance);

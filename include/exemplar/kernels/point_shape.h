@@ -44,10 +44,8 @@ namespace Exemplar
   public:
     /// Takes F and its change dF along a direction.
     ShapeAtPoint(const bool has_rotations, const Matrix3<Number> &F, const Matrix3<Number> &dF)
-        : ShapeAtPoint(has_rotations,
-                       has_rotations ? closest_rotation(F) : identity_matrix<Number>(),
-                       F,
-                       dF)
+        : ShapeAtPoint(
+            has_rotations, has_rotations ? closest_rotation(F) : identity_matrix<Number>(), F, dF)
     {
     }
 
@@ -98,8 +96,8 @@ namespace Exemplar
     }
 
   private:
-    bool            has_rotations;
-    Matrix3<Number> R, turn; ///< R and R^T dR
+    bool                   has_rotations;
+    Matrix3<Number>        R, turn; ///< R and R^T dR
     ChangingMatrix<Number> gradient, shape;
   };
 

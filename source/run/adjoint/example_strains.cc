@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/kernels/point_shape.h>
 #include <exemplar/potential/patch_energy.h>
 #include <exemplar/run/adjoint/example_strains.h>
-#include <exemplar/kernels/point_shape.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
 namespace Exemplar
@@ -49,11 +49,16 @@ namespace Exemplar
   Matrix3<double>
   ExampleStrains::wish(const unsigned int point, const std::vector<double> &weights) const
   {
-    Matrix3<double> sum{};
+    SymmetricEntries<double> sum{};
     poses.get_strains().for_each_weight(
-        point, [&](const unsigned int weight, const unsigned int i, const double share)
-        { sum = combine(1., sum, share * weights[weight], strain(point, i)); });
-    return sum;
+        point,
+        [&](const unsigned int weight, const unsigned int i, const double share)
+        {
+          const SymmetricEntries<double> &strain = strains[point * poses.size() + i];
+          for (std::size_t k = 0; k < n_symmetric; ++k)
+            sum[k] += share * weights[weight] * strain[k];
+        });
+    return unpack(sum);
   }
 
   std::optional<ExampleStrains::Place>

@@ -74,13 +74,11 @@ namespace Exemplar
         return { times(factor, of.value), times(factor, of.change) };
       }
 
-      /// Given derivatives by the target.
+      /// To which targets are proportional.
       double
-      by_importance(const unsigned int point, const MatrixAlong &by_target) const
+      by_importance(const double by_targets_size) const
       {
-        const MatrixAlong of = wish(point);
-        return problem.body.material.importance(fe_space.cell_of(point))
-               * (contract(by_target.value, of.value) + contract(by_target.change, of.change));
+        return by_targets_size / poses.constants().importance;
       }
 
       MatrixAlong
@@ -115,16 +113,16 @@ namespace Exemplar
                SlopeDerivatives   &sums,
                Matrix3<double>    &by_gradients) const
       {
-        const std::vector<double> &w = problem.state.weights;
+        const std::vector<double>     &w     = problem.state.weights;
+        const SymmetricEntries<double> value = pack(by_wish.value), change = pack(by_wish.change);
         poses.get_strains().for_each_weight(
             point,
             [&](const unsigned int weight, const unsigned int i, const double share)
             {
               sums.by_weights[weight] += share * contract(strains.strain(point, i), by_wish.value);
-              auto &by_strain = sums.by_strains[point * poses.size() + i];
-              by_strain
-                  = pack(combine(1., unpack(by_strain), share,
-                                 combine(w[weight], by_wish.value, along[weight], by_wish.change)));
+              SymmetricEntries<double> &by_strain = sums.by_strains[point * poses.size() + i];
+              for (std::size_t k = 0; k < n_symmetric; ++k)
+                by_strain[k] += share * (w[weight] * value[k] + along[weight] * change[k]);
             });
         if (factors == nullptr)
           return;
@@ -182,7 +180,7 @@ namespace Exemplar
     void
     carry_constants_to_moduli(const Problem &problem, SlopeDerivatives &sums)
     {
-      using Number = OfPoint::Regular;
+      using Number            = OfPoint::Regular;
       const Body        &body = problem.body;
       const BodyMaterial material{ body.material, body.cell_material,
                                    problem.parameters.examples.acts_on, body.patches.size() > 0 };
@@ -191,8 +189,8 @@ namespace Exemplar
           = OfPoint::seeded<Number>(problem.examples.poses.constants().importance, OfPoint::eta);
       for (unsigned int cell = 0; cell < sums.by_constants.size(); ++cell)
       {
-        const auto C = PointElasticity<Number>(material, cell, eta)
-                           .of_law<Isotropic<Number>>(laws[cell]);
+        const auto C
+            = PointElasticity<Number>(material, cell, eta).of_law<Isotropic<Number>>(laws[cell]);
         const auto by = [&](const std::size_t k)
         {
           double sum = 0.;
@@ -209,9 +207,7 @@ namespace Exemplar
   } // namespace
 
   SlopeDerivatives
-  derivatives_of_slope(Problem              &problem,
-                       const ExampleStrains &strains,
-                       const Direction      &direction)
+  derivatives_of_slope(Problem &problem, const ExampleStrains &strains, const Direction &direction)
   {
     SlopeDerivatives sums = no_derivatives(problem);
     ElasticPart      part(problem, strains, direction.weights);
@@ -228,8 +224,7 @@ namespace Exemplar
     carry_strains_to_poses(problem, sums);
     carry_constants_to_moduli(problem, sums);
     for (unsigned int cell = 0; cell < sums.by_gradients.size(); ++cell)
-      add_at_vertices(problem.body.fe_space, cell, sums.by_gradients[cell],
-                      sums.by_rest_positions);
+      add_at_vertices(problem.body.fe_space, cell, sums.by_gradients[cell], sums.by_rest_positions);
     sums.by_gradients.clear();
   }
 

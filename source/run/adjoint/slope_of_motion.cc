@@ -115,7 +115,7 @@ namespace Exemplar
       }
 
       static double
-      by_importance(const unsigned int /*point*/, const MatrixAlong & /*by_target*/)
+      by_importance(const double /*by_targets_size*/)
       {
         return 0.;
       }
@@ -193,7 +193,7 @@ namespace Exemplar
       void
       look_back(const WeightedPositions &past)
       {
-        CellField &field = problem.cells.get_field();
+        CellField                    &field = problem.cells.get_field();
         dealii::AlignedVector<double> places(4 * field.n_nodes());
         for (unsigned int node = 0; node < field.n_nodes(); ++node)
           for (unsigned int c = 0; c < 3; ++c)
@@ -203,8 +203,7 @@ namespace Exemplar
                       [&](const std::size_t, const std::size_t begin, const std::size_t end)
                       {
                         field.for_each_law(task,
-                                           [&](const CellTask &of_law)
-                                           {
+                                           [&](const CellTask &of_law) {
                                              field.loops().add_strains(of_law, past.weight, begin,
                                                                        end, strains.data(),
                                                                        shares.data());

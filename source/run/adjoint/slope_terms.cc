@@ -83,10 +83,9 @@ namespace Exemplar
                                                 });
       if (!material.elasticity_of_examples().youngs_modulus)
         sums.by_young[cell] += by_unit * volume * mean;
-      sums.add_by_volume(cell,
-                         volume
-                             * (by_unit * material.youngs_modulus_of_examples(cell) * mean
-                                + sigma * (here - mean) / total + price));
+      sums.add_by_volume(cell, volume
+                                   * (by_unit * material.youngs_modulus_of_examples(cell) * mean
+                                      + sigma * (here - mean) / total + price));
     }
   }
 

@@ -250,16 +250,17 @@ namespace Exemplar::Testing::AtPoints
       for (std::size_t k = 0; k < LawSlope<double>::n_constants; ++k)
       {
         const double constant = point.constants[k * batch_size];
-        EXPECT_NEAR(found.by_constants[k], by([&](const double h)
-                                              { point.constants[k * batch_size] = constant + h; }),
+        EXPECT_NEAR(found.by_constants[k],
+                    by([&](const double h) { point.constants[k * batch_size] = constant + h; }),
                     1e-8);
       }
-      EXPECT_NEAR(found.by_importance,
-                  by([&](const double h)
-                     { point.in.examples.importance = examples.importance + h; }),
-                  1e-8);
-      point.in.has_target = false;
-      point.in.target     = {};
+      EXPECT_NEAR(
+          found.by_importance,
+          by([&](const double h) { point.in.examples.importance = examples.importance + h; }),
+          1e-8);
+      point.in.has_target          = false;
+      point.in.target              = {};
+      point.in.examples.importance = 0.;
       LawSlope<double> slope;
       point.functions.slope(point.at(F), change, slope);
       const Matrix3<double> P = point.force(F);

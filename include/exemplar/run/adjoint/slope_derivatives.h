@@ -35,10 +35,11 @@ namespace Exemplar
     std::vector<Matrix3<double>>       by_gradients;
     std::vector<std::array<double, 2>> by_constants;
     std::vector<double>                by_young, by_poisson, by_density; ///< by cell
-    double                                by_importance = 0.;
-    Vector                                by_nodal_forces;
-    std::array<double, 3>                 by_gravity{};
-    Vector by_start; ///< by what slips are counted from, x_star of the time scheme; empty without friction
+    double                             by_importance = 0.;
+    Vector                             by_nodal_forces;
+    std::array<double, 3>              by_gravity{};
+    Vector
+        by_start; ///< by what slips are counted from, x_star of the time scheme; empty without friction
     std::vector<ObstacleSlopes::OfObstacle> of_obstacles; ///< empty without obstacles
 
     /// Add what follows from changes of the shape gradients of a cell: the derivative by F times
@@ -69,9 +70,7 @@ namespace Exemplar
   /// Derivatives for a static problem that satisfies adjoint_checks.h, whose examples have these
   /// strains.
   SlopeDerivatives
-  derivatives_of_slope(Problem              &problem,
-                       const ExampleStrains &strains,
-                       const Direction      &direction);
+  derivatives_of_slope(Problem &problem, const ExampleStrains &strains, const Direction &direction);
 } // namespace Exemplar
 
 #endif

@@ -56,7 +56,10 @@ namespace Exemplar
   public:
     /// At these positions, whose rotations the field has, along these changes, with the laws of
     /// damping() instead of the body's or not. The field must outlive it.
-    SlopeLoops(CellField &field, const Vector &positions, const Vector &along, const bool of_damping)
+    SlopeLoops(CellField    &field,
+               const Vector &positions,
+               const Vector &along,
+               const bool    of_damping)
         : field(field), of_damping(of_damping), task(field.task(positions, RotationUse::keep)),
           changes(4 * field.n_nodes())
     {
@@ -80,10 +83,9 @@ namespace Exemplar
     void
     for_each_slope(const bool has_targets, const Target &target, const Take &take)
     {
-      for_each_chunk(
-          has_targets, target, SlopeEntry::size, &CellKernels::slopes,
-          [&](const unsigned int point, const double *found, const std::size_t slot)
-          { take(point, FoundSlope(found, slot)); });
+      for_each_chunk(has_targets, target, SlopeEntry::size, &CellKernels::slopes,
+                     [&](const unsigned int point, const double *found, const std::size_t slot)
+                     { take(point, FoundSlope(found, slot)); });
     }
 
     /// Call take(point, slope) likewise, with the slope alone, without the guard of the stretch.
@@ -99,10 +101,8 @@ namespace Exemplar
   private:
     static constexpr std::size_t n_batches_at_once = 64, n_parts = 16; ///< whatever the threads
 
-    using Loop = void (*CellKernels::*)(const CellTask &,
-                                        const SlopeTask &,
-                                        std::size_t,
-                                        std::size_t);
+    using Loop
+        = void (*CellKernels::*)(const CellTask &, const SlopeTask &, std::size_t, std::size_t);
 
     template <typename Target, typename Take>
     void
@@ -141,8 +141,8 @@ namespace Exemplar
       for (std::size_t slot = begin; slot < end; ++slot)
       {
         // the last batch is filled with copies of the last cell
-        const std::size_t point = std::min(first + slot, task.cells.n_cells - 1);
-        const MatrixAlong D     = target(static_cast<unsigned int>(point));
+        const std::size_t              point = std::min(first + slot, task.cells.n_cells - 1);
+        const MatrixAlong              D     = target(static_cast<unsigned int>(point));
         const SymmetricEntries<double> value = pack(D.value), change = pack(D.change);
         for (std::size_t k = 0; k < n_symmetric; ++k)
         {

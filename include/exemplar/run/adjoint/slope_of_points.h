@@ -192,13 +192,13 @@ namespace Exemplar
     add_by_points(SlopeDerivatives &sums)
     {
       double by_guard_bound = 0.;
-      for_each_found<Contribution>(
-          [this](const unsigned int point) { return contribution(point); },
-          [&](const unsigned int point, const Contribution &of_point)
-          {
-            add(point, of_point, sums);
-            by_guard_bound += of_point.by_constants[OfPoint::guard_bound - 1];
-          });
+      for_each_found<Contribution>([this](const unsigned int point) { return contribution(point); },
+                                   [&](const unsigned int point, const Contribution &of_point)
+                                   {
+                                     add(point, of_point, sums);
+                                     by_guard_bound
+                                         += of_point.by_constants[OfPoint::guard_bound - 1];
+                                   });
       return by_guard_bound;
     }
 
@@ -223,9 +223,9 @@ namespace Exemplar
     void
     add(const unsigned int point, const FoundSlope &found, SlopeDerivatives &sums)
     {
-      const double       share = part.share(point);
-      const unsigned int cell  = fe_space.cell_of(point);
-      Matrix3<double>    by_F = found.matrix(SlopeEntry::by_F),
+      const double       share     = part.share(point);
+      const unsigned int cell      = fe_space.cell_of(point);
+      Matrix3<double>    by_F      = found.matrix(SlopeEntry::by_F),
                       by_gradients = found.matrix(SlopeEntry::by_gradients);
       if (Part::is_damping)
       {
@@ -238,10 +238,9 @@ namespace Exemplar
         const MatrixAlong by_target{ found.symmetric_matrix(SlopeEntry::by_target),
                                      found.symmetric_matrix(SlopeEntry::by_change_of_target) };
         const double      factor = share * part.target_factor(cell);
-        part.add_wish(point,
-                      { times(factor, by_target.value), times(factor, by_target.change) }, nullptr,
-                      sums, by_gradients);
-        sums.by_importance += part.by_importance(point, by_target);
+        part.add_wish(point, { times(factor, by_target.value), times(factor, by_target.change) },
+                      nullptr, sums, by_gradients);
+        sums.by_importance += part.by_importance(found[SlopeEntry::by_targets_size]);
       }
       for (std::size_t k = 0; k < LawSlope<double>::n_constants; ++k)
         sums.by_constants[cell][k] += share * found[SlopeEntry::by_constants + k];
