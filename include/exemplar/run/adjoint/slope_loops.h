@@ -51,6 +51,7 @@ namespace Exemplar
     std::size_t   slot;
   };
 
+  /// The loops over the cells of a body that find the slope of its laws' energies along a direction.
   class SlopeLoops
   {
   public:
