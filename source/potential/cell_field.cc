@@ -116,6 +116,16 @@ namespace Exemplar
     return task;
   }
 
+  CellTask
+  CellField::task_elsewhere(const double *positions)
+  {
+    CellTask task;
+    task.cells        = batches.arrays();
+    task.positions    = positions;
+    task.rotation_use = RotationUse::find_and_forget;
+    return task;
+  }
+
   LawInput<double>
   CellField::law_input(const unsigned int point, const Matrix3<double> &F) const
   {

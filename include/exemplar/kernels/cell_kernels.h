@@ -66,6 +66,21 @@ namespace Exemplar
     /// example's weight, three entries a node and example, each for all cells of the batch.
     void (*coupling)(const CellTask &, bool convex, std::size_t batch, double *forces);
 
+    /// Find the derivatives of the slope of the law's energy, see SlopeTask. The law has a potential.
+    void (*slopes)(const CellTask &, const SlopeTask &, std::size_t begin, std::size_t end);
+
+    /// Find SlopeEntry::value alone, one number a cell, without the guard of the stretch.
+    void (*works)(const CellTask &, const SlopeTask &, std::size_t begin, std::size_t end);
+
+    /// Add `factor` times the strains e, with the rotations at the task's positions, to `strains`,
+    /// six numbers a cell, and set `factors`, one a cell, to 0 where the guard of Eq. (16) acts.
+    void (*add_strains)(const CellTask &,
+                        double      factor,
+                        std::size_t begin,
+                        std::size_t end,
+                        double     *strains,
+                        double     *factors);
+
     /// Add the rotations of the cells to sums at their nodes, twelve numbers a node of which nine
     /// count.
     void (*add_rotations)(const CellTask &, std::size_t begin, std::size_t end, float *nodal_sums);

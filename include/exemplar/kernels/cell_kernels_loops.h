@@ -5,6 +5,7 @@
 #include <exemplar/kernels/loops_energy.h>
 #include <exemplar/kernels/loops_nodes.h>
 #include <exemplar/kernels/loops_patches.h>
+#include <exemplar/kernels/loops_slopes.h>
 #include <exemplar/kernels/loops_tangent.h>
 
 namespace Exemplar::Loops
@@ -27,6 +28,9 @@ namespace Exemplar::Loops
              add_tangent<Number, n_nodes>,
              add_patch_tangent<Number, n_nodes>,
              coupling<Number, n_nodes>,
+             slopes<Number, n_nodes>,
+             works<Number, n_nodes>,
+             add_strains<Number, n_nodes>,
              add_rotations<Number, n_nodes>,
              closest_rotations<Number>,
              patch_gradients<Number, n_nodes>,

@@ -68,6 +68,12 @@ namespace Exemplar
     return function(CellModel<std::tuple_element_t<i, CellLaws<Number>>>());
   }
 
+  /// Whether forces are the derivative of an energy that does not depend on earlier steps.
+  template <typename Cell>
+  constexpr bool has_potential = Cell::traits.n_history == 0
+                                 && !(Cell::traits.exact_is_rotated
+                                      && Cell::traits.has_rotations); // frozen forces have none
+
   inline ModelTraits
   traits_of(const CellLaw law)
   {

@@ -134,6 +134,27 @@ namespace Exemplar
     find_and_forget
   };
 
+  /// What a loop finds of a LawSlope times the volume; matrices by rows.
+  namespace SlopeEntry
+  {
+    constexpr std::size_t value = 0, by_F = 1,
+                          by_gradients = 10,      ///< F^T by_F + dF^T by_dF
+        by_target = 19, by_change_of_target = 25, ///< symmetric: six numbers
+        by_targets_size = 31, ///< by a factor of the target and its change, where that is 1
+        by_constants = 32, by_importance = 34,
+                          is_guarded = 35, ///< 1: what is found counts for nothing
+        size                         = 36;
+  } // namespace SlopeEntry
+
+  /// Direction and output of the loop that finds slopes.
+  struct SlopeTask
+  {
+    const double *along;             ///< changes of the positions, four numbers a node [m]
+    const double *targets = nullptr; ///< 12 a cell: D and dD; null: no target
+    double       *found; ///< output, SlopeEntry::size a cell; the arrays of targets and of output
+                         ///< begin with the first batch of the loop
+  };
+
   /// Input of a loop.
   struct CellTask
   {

@@ -5,22 +5,25 @@
 #include <exemplar/kernels/neo_hookean_cell.h>
 
 #include <array>
-#include <cmath>
+#include <utility>
 
 // Dual numbers, which carry derivatives, for the laws of a cell, which are templates of the number
 // type. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
-  /// A number with its derivatives by n parameters. The derivatives of constants are stored as
-  /// zeros: loops without branches are faster than tests for constants.
-  template <std::size_t n>
+  /// A number with its derivatives by n parameters; Real is double, or a register with a number a
+  /// lane. The derivatives of constants are stored as zeros: loops without branches are faster than
+  /// tests for constants.
+  template <std::size_t n, typename Real = double>
   struct Dual
   {
     static constexpr std::size_t n_derivatives = n;
 
-    double                value = 0.;
-    std::array<double, n> by    = {};
+    using Value = Real;
+
+    Real                value = Real(0.);
+    std::array<Real, n> by    = zeros(std::make_index_sequence<n>());
 
     Dual() = default;
 
@@ -28,7 +31,7 @@ namespace Exemplar
     explicit Dual(const double value) : value(value) {}
 
     /// A function of the first parameter, with derivative `change`.
-    Dual(const double value, const double change) : value(value)
+    Dual(const Real &value, const Real &change) : value(value)
     {
       if constexpr (n > 0)
         by[0] = change;
@@ -64,9 +67,9 @@ namespace Exemplar
     Dual &
     operator*=(const double factor)
     {
-      value *= factor;
-      for (double &derivative : by)
-        derivative *= factor;
+      value *= Real(factor);
+      for (Real &derivative : by)
+        derivative *= Real(factor);
       return *this;
     }
 
@@ -75,158 +78,172 @@ namespace Exemplar
     {
       return *this *= inverse(x);
     }
+
+  private:
+    template <std::size_t... k>
+    static std::array<Real, n>
+    zeros(std::index_sequence<k...> /*derivatives*/)
+    {
+      return { { ((void) k, Real(0.))... } };
+    }
   };
 
   /// Chain rule for g(x), given the value and the first derivative of g at x.
-  template <std::size_t n>
-  Dual<n>
-  chained(const Dual<n> &x, const double g, const double first)
+  template <std::size_t n, typename Real>
+  Dual<n, Real>
+  chained(const Dual<n, Real> &x, const Real &g, const Real &first)
   {
-    Dual<n> result(g);
+    Dual<n, Real> result;
+    result.value = g;
     for (std::size_t k = 0; k < n; ++k)
       result.by[k] = first * x.by[k];
     return result;
   }
 
-  template <std::size_t n>
-  Dual<n>
-  inverse(const Dual<n> &x)
+  template <std::size_t n, typename Real>
+  Dual<n, Real>
+  inverse(const Dual<n, Real> &x)
   {
-    const double i = 1. / x.value;
+    const Real i = Real(1.) / x.value;
     return chained(x, i, -i * i);
   }
 
-  template <std::size_t n>
-  Dual<n>
-  sqrt(const Dual<n> &x)
+  template <std::size_t n, typename Real>
+  Dual<n, Real>
+  sqrt(const Dual<n, Real> &x)
   {
-    const double root = std::sqrt(x.value);
-    return chained(x, root, 0.5 / root);
+    const Real root = sqrt(x.value);
+    return chained(x, root, Real(0.5) / root);
   }
 
-  template <std::size_t n>
-  [[gnu::always_inline]] inline Dual<n>
-  operator-(const Dual<n> &x)
+  template <std::size_t n, typename Real>
+  [[gnu::always_inline]] inline Dual<n, Real>
+  operator-(const Dual<n, Real> &x)
   {
-    return Dual<n>() -= x;
+    return Dual<n, Real>() -= x;
   }
 
-  template <std::size_t n>
-  [[gnu::always_inline]] inline Dual<n>
-  operator+(Dual<n> x, const Dual<n> &y)
+  template <std::size_t n, typename Real>
+  [[gnu::always_inline]] inline Dual<n, Real>
+  operator+(Dual<n, Real> x, const Dual<n, Real> &y)
   {
     return x += y;
   }
 
-  template <std::size_t n>
-  [[gnu::always_inline]] inline Dual<n>
-  operator-(Dual<n> x, const Dual<n> &y)
+  template <std::size_t n, typename Real>
+  [[gnu::always_inline]] inline Dual<n, Real>
+  operator-(Dual<n, Real> x, const Dual<n, Real> &y)
   {
     return x -= y;
   }
 
-  template <std::size_t n>
-  [[gnu::always_inline]] inline Dual<n>
-  operator*(Dual<n> x, const Dual<n> &y)
+  template <std::size_t n, typename Real>
+  [[gnu::always_inline]] inline Dual<n, Real>
+  operator*(Dual<n, Real> x, const Dual<n, Real> &y)
   {
     return x *= y;
   }
 
-  template <std::size_t n>
-  Dual<n>
-  operator/(Dual<n> x, const Dual<n> &y)
+  template <std::size_t n, typename Real>
+  Dual<n, Real>
+  operator/(Dual<n, Real> x, const Dual<n, Real> &y)
   {
     return x /= y;
   }
 
   // Comparisons depend on values alone.
 
-  template <std::size_t n>
-  bool
-  operator==(const Dual<n> &x, const Dual<n> &y)
+  template <std::size_t n, typename Real>
+  auto
+  operator==(const Dual<n, Real> &x, const Dual<n, Real> &y)
   {
     return x.value == y.value;
   }
 
-  template <std::size_t n>
-  bool
-  operator<(const Dual<n> &x, const Dual<n> &y)
+  template <std::size_t n, typename Real>
+  auto
+  operator<(const Dual<n, Real> &x, const Dual<n, Real> &y)
   {
     return x.value < y.value;
   }
 
-  template <std::size_t n>
-  bool
-  operator>(const Dual<n> &x, const Dual<n> &y)
+  template <std::size_t n, typename Real>
+  auto
+  operator>(const Dual<n, Real> &x, const Dual<n, Real> &y)
   {
     return x.value > y.value;
   }
 
-  template <std::size_t n>
-  bool
-  operator<=(const Dual<n> &x, const Dual<n> &y)
+  template <std::size_t n, typename Real>
+  auto
+  operator<=(const Dual<n, Real> &x, const Dual<n, Real> &y)
   {
     return x.value <= y.value;
   }
 
-  template <std::size_t n>
-  bool
-  operator>=(const Dual<n> &x, const Dual<n> &y)
+  template <std::size_t n, typename Real>
+  auto
+  operator>=(const Dual<n, Real> &x, const Dual<n, Real> &y)
   {
     return x.value >= y.value;
   }
 
-  template <std::size_t n>
-  Dual<n>
-  max(const Dual<n> &x, const Dual<n> &y)
+  /// For a register lane by lane.
+  template <typename Mask, std::size_t n, typename Real>
+  Dual<n, Real>
+  select(const Mask &condition, const Dual<n, Real> &x, const Dual<n, Real> &y)
   {
-    return x.value < y.value ? y : x;
+    Dual<n, Real> result;
+    result.value = select(condition, x.value, y.value);
+    for (std::size_t k = 0; k < n; ++k)
+      result.by[k] = select(condition, x.by[k], y.by[k]);
+    return result;
   }
 
-  template <std::size_t n>
-  Dual<n>
-  abs(const Dual<n> &x)
+  template <std::size_t n, typename Real>
+  Dual<n, Real>
+  max(const Dual<n, Real> &x, const Dual<n, Real> &y)
   {
-    return x.value < 0. ? -x : x;
+    return select(x.value < y.value, y, x);
   }
 
-  template <std::size_t n>
-  Dual<n>
-  hypot(const Dual<n> &x, const Dual<n> &y)
+  template <std::size_t n, typename Real>
+  Dual<n, Real>
+  abs(const Dual<n, Real> &x)
+  {
+    return select(x.value < Real(0.), -x, x);
+  }
+
+  template <std::size_t n, typename Real>
+  Dual<n, Real>
+  hypot(const Dual<n, Real> &x, const Dual<n, Real> &y)
   {
     return sqrt(x * x + y * y);
   }
 
-  template <std::size_t n>
-  Dual<n>
-  select(const bool condition, const Dual<n> &x, const Dual<n> &y)
-  {
-    return condition ? x : y;
-  }
-
   /// x - log(1 + x).
-  template <std::size_t n>
-  Dual<n>
-  beyond_logarithm(const Dual<n> &x)
+  template <std::size_t n, typename Real>
+  Dual<n, Real>
+  beyond_logarithm(const Dual<n, Real> &x)
   {
-    return chained(x, x.value - std::log1p(x.value), x.value / (1. + x.value));
+    return chained(x, beyond_logarithm(x.value), x.value / (Real(1.) + x.value));
   }
 
   /// factor A of a factor without derivatives.
-  template <std::size_t n>
-  Matrix3<Dual<n>>
-  times(const double factor, Matrix3<Dual<n>> A)
+  template <std::size_t n, typename Real>
+  Matrix3<Dual<n, Real>>
+  times(const double factor, Matrix3<Dual<n, Real>> A)
   {
     for (auto &row : A.value)
-      for (Dual<n> &entry : row)
+      for (Dual<n, Real> &entry : row)
         entry *= factor;
     return A;
   }
 
   /// The inverse without bounds, because eigenvectors have no derivatives where eigenvalues coincide.
-  template <std::size_t n>
-  Matrix3<Dual<n>>
-  bounded_inverse(const Matrix3<Dual<n>> &B, const Dual<n> & /*minimum*/)
+  template <std::size_t n, typename Real>
+  Matrix3<Dual<n, Real>>
+  bounded_inverse(const Matrix3<Dual<n, Real>> &B, const Dual<n, Real> & /*minimum*/)
   {
     return inverse_of_symmetric(B);
   }

@@ -50,6 +50,30 @@ namespace Exemplar
     decltype(Number() < Number()) is_guarded; ///< whether the guard of Eq. (16) acts
   };
 
+  /// How the points in a register change along a direction.
+  template <typename Number>
+  struct LawChange
+  {
+    Matrix3<Number> F, target;
+  };
+
+  /// The slope P:dF + dpsi/dD:dD of the energy psi(F, D) along a LawChange (dF, dD), with the guard
+  /// of the stretch and without damping and patches, and its derivatives.
+  template <typename Number>
+  struct LawSlope
+  {
+    static constexpr std::size_t n_constants = 2; ///< the first ones of the law
+
+    Number          value; ///< [Pa]
+    Matrix3<Number> by_F, by_change_of_F;
+    Matrix3<Number> by_target, by_change_of_target; ///< 0 without a target
+    Number          by_constants[n_constants];
+    Number          by_importance; ///< by ExampleNumbers::importance, at a fixed target
+
+    /// Where the guard of Eq. (16) acts; the derivatives are wrong there.
+    decltype(Number() < Number()) is_guarded;
+  };
+
   /// A linear map from R^T dF to R^T dP.
   template <typename Number>
   struct LawTangent
@@ -123,6 +147,12 @@ namespace Exemplar
                     std::size_t            n,
                     const Matrix3<Number> *E,
                     Matrix3<Number>       *dP);
+
+    /// The slope along a direction; null for laws without a potential, see has_potential.
+    void (*slope)(const LawInput<Number> &, const LawChange<Number> &, LawSlope<Number> &);
+
+    /// The strain e.
+    Matrix3<Number> (*strain)(const Matrix3<Number> &R, const Matrix3<Number> &F);
 
     /// The history variables at the end of the step.
     void (*advance)(const LawInput<Number> &, Number *history);

@@ -4,6 +4,7 @@
 
 #include <exemplar/kernels/cell_model.h>
 #include <exemplar/kernels/law_functions.h>
+#include <exemplar/kernels/law_slope.h>
 
 #include <array>
 #include <utility>
@@ -183,9 +184,30 @@ namespace Exemplar::Laws
   }
 
   template <typename Cell, typename Number>
+  Matrix3<Number>
+  strain(const Matrix3<Number> &R, const Matrix3<Number> &F)
+  {
+    return Cell::strain_of(R, F);
+  }
+
+  /// The slope of a law, or null.
+  template <std::size_t law, typename Number>
+  constexpr auto
+  slope_of()
+  {
+    using Cell  = std::tuple_element_t<law, CellLaws<Number>>;
+    using Along = Dual<OfSlope<Cell>::size, Number>;
+    if constexpr (has_potential<Cell>)
+      return slope<std::tuple_element_t<law, CellLaws<Along>>, Along, Number>;
+    else
+      return nullptr;
+  }
+
+  template <std::size_t law, typename Number>
   constexpr LawFunctions<Number>
   functions_of()
   {
+    using Cell = std::tuple_element_t<law, CellLaws<Number>>;
     return { &Cell::traits,
              Cell::Constants::n_numbers,
              Cell::Constants::is_isotropic,
@@ -195,6 +217,8 @@ namespace Exemplar::Laws
              stretch_guard<Cell, Number>,
              tangent<Cell, Number>,
              columns<Cell, Number>,
+             slope_of<law, Number>(),
+             strain<Cell, Number>,
              advance<Cell, Number> };
   }
 
@@ -203,7 +227,7 @@ namespace Exemplar::Laws
   functions_at(const std::size_t i, std::index_sequence<law...> /*all*/)
   {
     static constexpr std::array<LawFunctions<Number>, sizeof...(law)> all
-        = { functions_of<std::tuple_element_t<law, CellLaws<Number>>, Number>()... };
+        = { functions_of<law, Number>()... };
     return all[i];
   }
 } // namespace Exemplar::Laws

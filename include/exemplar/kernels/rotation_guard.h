@@ -38,6 +38,17 @@ namespace Exemplar
     return C;
   }
 
+  /// (s_1+s_2)(s_2+s_3)(s_3+s_1) of a stretch S with the principal stretches s_i.
+  template <typename Number>
+  Number
+  product_of_sums(const Matrix3<Number> &S)
+  {
+    Matrix3<Number> B = combine(Number(-1.), S, Number(0.), S);
+    for (int k = 0; k < 3; ++k)
+      B[k][k] += trace(S);
+    return determinant(B);
+  }
+
   /// The guard phi = z^2 (3 - 2 z), z = clamp(p/p_0, 0, 1), and its derivatives by p. The product
   /// p = (s_1+s_2)(s_2+s_3)(s_3+s_1) of the singular values, s_3 < 0 in a mirrored cell, is 8 at
   /// rest and 0 where the rotation is ambiguous and the energy with an example would jump.

@@ -130,6 +130,11 @@ namespace Exemplar
     CellTask
     task(const Vector &positions, RotationUse rotations);
 
+    /// The input of a loop at other positions, four numbers a node [m], that keeps off the stored
+    /// rotations.
+    CellTask
+    task_elsewhere(const double *positions);
+
     /// tr(e) and |F|^2 of the points at these positions into the dilatation field.
     void
     update_dilatations(const Vector &positions, RotationUse rotations);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/kernels/point_shape.h>
 #include <exemplar/potential/patch_energy.h>
 #include <exemplar/run/adjoint/example_strains.h>
-#include <exemplar/run/adjoint/point_shape.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
 namespace Exemplar
@@ -21,15 +21,6 @@ namespace Exemplar
         result[i][j] = contract(by_strain, model_strain_change(law, R, F, dF));
       }
     return result;
-  }
-
-  double
-  product_of_sums(const Matrix3<double> &S)
-  {
-    Matrix3<double> B = combine(-1., S, 0., S);
-    for (int k = 0; k < 3; ++k)
-      B[k][k] += trace(S);
-    return determinant(B);
   }
 
   ExampleStrains::ExampleStrains(const Problem &problem)
@@ -58,11 +49,16 @@ namespace Exemplar
   Matrix3<double>
   ExampleStrains::wish(const unsigned int point, const std::vector<double> &weights) const
   {
-    Matrix3<double> sum{};
+    SymmetricEntries<double> sum{};
     poses.get_strains().for_each_weight(
-        point, [&](const unsigned int weight, const unsigned int i, const double share)
-        { sum = combine(1., sum, share * weights[weight], strain(point, i)); });
-    return sum;
+        point,
+        [&](const unsigned int weight, const unsigned int i, const double share)
+        {
+          const SymmetricEntries<double> &strain = strains[point * poses.size() + i];
+          for (std::size_t k = 0; k < n_symmetric; ++k)
+            sum[k] += share * weights[weight] * strain[k];
+        });
+    return unpack(sum);
   }
 
   std::optional<ExampleStrains::Place>
@@ -125,7 +121,7 @@ namespace Exemplar
           add_forces(fe_space, point, by_F, sums.by_poses[i]);
           by_gradients = combine(1., by_gradients, 1., transpose_times(F, by_F));
         }
-      add_at_vertices(fe_space, cell, times(-1., by_gradients), sums.by_rest_positions);
+      sums.add_by_shape_gradients(cell, by_gradients);
     }
     sums.by_strains.clear();
   }

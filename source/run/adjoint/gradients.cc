@@ -100,7 +100,7 @@ namespace Exemplar
   Gradients
   gradients_of(const Problem &problem, SlopeDerivatives slope)
   {
-    carry_strains_to_poses(problem, slope);
+    carry_to_parameters(problem, slope);
     Gradients result;
     if (!has_orthotropic_cells(problem))
     {

@@ -16,6 +16,8 @@ namespace Exemplar
       template <typename Cell, typename Number>
       using Evaluation = ElasticPoint<Cell, Number>;
 
+      static constexpr bool is_damping = false;
+
       ElasticPart(const Problem             &problem,
                   const ExampleStrains      &strains,
                   const std::vector<double> &along)
@@ -40,6 +42,43 @@ namespace Exemplar
       share_of_patch(const unsigned int /*patch*/)
       {
         return 1.;
+      }
+
+      bool
+      is_of_law_alone() const
+      {
+        const ExampleParameters &examples = problem.parameters.examples;
+        return patches.size() == 0
+               && (!has_targets()
+                   || (examples.acts_on == ActsOn::all && !(blended_part(examples.energy) > 0.)
+                       && !problem.body.material.has_elasticity_of_examples()));
+      }
+
+      bool
+      has_targets() const
+      {
+        return poses.size() > 0;
+      }
+
+      double
+      target_factor(const unsigned int cell) const
+      {
+        return problem.body.material.importance(cell) * poses.constants().importance;
+      }
+
+      MatrixAlong
+      target(const unsigned int point) const
+      {
+        const MatrixAlong of     = wish(point);
+        const double      factor = target_factor(fe_space.cell_of(point));
+        return { times(factor, of.value), times(factor, of.change) };
+      }
+
+      /// To which targets are proportional.
+      double
+      by_importance(const double by_targets_size) const
+      {
+        return by_targets_size / poses.constants().importance;
       }
 
       MatrixAlong
@@ -74,16 +113,16 @@ namespace Exemplar
                SlopeDerivatives   &sums,
                Matrix3<double>    &by_gradients) const
       {
-        const std::vector<double> &w = problem.state.weights;
+        const std::vector<double>     &w     = problem.state.weights;
+        const SymmetricEntries<double> value = pack(by_wish.value), change = pack(by_wish.change);
         poses.get_strains().for_each_weight(
             point,
             [&](const unsigned int weight, const unsigned int i, const double share)
             {
               sums.by_weights[weight] += share * contract(strains.strain(point, i), by_wish.value);
-              auto &by_strain = sums.by_strains[point * poses.size() + i];
-              by_strain
-                  = pack(combine(1., unpack(by_strain), share,
-                                 combine(w[weight], by_wish.value, along[weight], by_wish.change)));
+              SymmetricEntries<double> &by_strain = sums.by_strains[point * poses.size() + i];
+              for (std::size_t k = 0; k < n_symmetric; ++k)
+                by_strain[k] += share * (w[weight] * value[k] + along[weight] * change[k]);
             });
         if (factors == nullptr)
           return;
@@ -130,16 +169,45 @@ namespace Exemplar
       sums.by_weights.assign(poses.n_weights(), 0.);
       sums.by_poses.assign(poses.size(), Vector(n));
       sums.by_strains.assign(problem.body.fe_space.n_points() * poses.size(), {});
+      sums.by_gradients.assign(m, {});
+      sums.by_constants.assign(m, {});
       for (auto *cells : { &sums.by_young, &sums.by_poisson, &sums.by_density })
         cells->assign(m, 0.);
       return sums;
     }
+
+    /// By Young's modulus, Poisson's ratio and eta, from those by lambda and mu.
+    void
+    carry_constants_to_moduli(const Problem &problem, SlopeDerivatives &sums)
+    {
+      using Number            = OfPoint::Regular;
+      const Body        &body = problem.body;
+      const BodyMaterial material{ body.material, body.cell_material,
+                                   problem.parameters.examples.acts_on, body.patches.size() > 0 };
+      const LawsOfCells  laws = laws_of_cells(problem.parameters, body);
+      const Number       eta
+          = OfPoint::seeded<Number>(problem.examples.poses.constants().importance, OfPoint::eta);
+      for (unsigned int cell = 0; cell < sums.by_constants.size(); ++cell)
+      {
+        const auto C
+            = PointElasticity<Number>(material, cell, eta).of_law<Isotropic<Number>>(laws[cell]);
+        const auto by = [&](const std::size_t k)
+        {
+          double sum = 0.;
+          for (std::size_t i = 0; i < LawSlope<double>::n_constants; ++i)
+            sum += sums.by_constants[cell][i] * C.number(i).by[k];
+          return sum;
+        };
+        sums.by_young[cell] += by(OfPoint::E);
+        sums.by_poisson[cell] += by(OfPoint::nu);
+        sums.by_importance += by(OfPoint::eta);
+      }
+      sums.by_constants.clear();
+    }
   } // namespace
 
   SlopeDerivatives
-  derivatives_of_slope(const Problem        &problem,
-                       const ExampleStrains &strains,
-                       const Direction      &direction)
+  derivatives_of_slope(Problem &problem, const ExampleStrains &strains, const Direction &direction)
   {
     SlopeDerivatives sums = no_derivatives(problem);
     ElasticPart      part(problem, strains, direction.weights);
@@ -148,6 +216,16 @@ namespace Exemplar
     add_slope_of_loads(problem, direction, sums);
     add_slope_of_contact(problem, direction, sums);
     return sums;
+  }
+
+  void
+  carry_to_parameters(const Problem &problem, SlopeDerivatives &sums)
+  {
+    carry_strains_to_poses(problem, sums);
+    carry_constants_to_moduli(problem, sums);
+    for (unsigned int cell = 0; cell < sums.by_gradients.size(); ++cell)
+      add_at_vertices(problem.body.fe_space, cell, sums.by_gradients[cell], sums.by_rest_positions);
+    sums.by_gradients.clear();
   }
 
   void

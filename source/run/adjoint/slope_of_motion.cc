@@ -52,8 +52,7 @@ namespace Exemplar
         const double by_density
             = fe_space.cell_volume(cell) * product(fe_space.nodes(cell), m, direction.positions, q);
         sums.by_density[cell] += by_density;
-        add_volume(fe_space, cell, problem.body.material.density(cell) * by_density,
-                   sums.by_rest_positions);
+        sums.add_by_volume(cell, problem.body.material.density(cell) * by_density);
       }
     }
 
@@ -64,28 +63,61 @@ namespace Exemplar
       template <typename Cell, typename Number>
       using Evaluation = DampingPoint<Cell, Number>;
 
-      /// Takes s of Eq. (22) and the earlier positions of the step.
-      DampingPart(const Problem                 &problem,
+      static constexpr bool is_damping = true;
+
+      /// Takes the earlier positions of the step; s of Eq. (22) is 1.
+      DampingPart(Problem                       &problem,
                   const ExampleStrains          &of_examples,
-                  std::vector<WeightedPositions> history,
-                  const double                   s)
+                  std::vector<WeightedPositions> history)
           : problem(problem), of_examples(of_examples), fe_space(problem.body.fe_space),
             history(std::move(history)), laws(of_examples.get_laws()),
             by_past(this->history.size(), Vector(fe_space.n_dofs())),
-            shares(fe_space.n_points(), s), shares_of_patches(problem.body.patches.size(), s),
-            strains(fe_space.n_points(), Matrix3<double>{})
+            shares_of_patches(problem.body.patches.size(), 1.)
       {
-        for_each_part(n_parts, fe_space.n_points(), problem.parameters.solver.n_threads,
-                      [this](const std::size_t, const std::size_t begin, const std::size_t end)
-                      {
-                        for (std::size_t point = begin; point < end; ++point)
-                          for (const WeightedPositions &past : this->history)
-                            look_back(point, past);
-                      });
+        shares.resize(batched_size(fe_space.n_points(), 1), 1.);
+        strains.resize(batched_size(fe_space.n_points(), n_symmetric), 0.);
+        for (const WeightedPositions &past : this->history)
+          look_back(past);
         if (!shares_of_patches.empty())
           for (unsigned int point = 0; point < fe_space.n_points(); ++point)
             if (shares[point] == 0.)
               shares_of_patches[problem.body.patches.of_point(point)] = 0.;
+      }
+
+      void
+      set_factor(const double new_s)
+      {
+        s = new_s;
+      }
+
+      bool
+      is_of_law_alone() const
+      {
+        return shares_of_patches.empty();
+      }
+
+      static bool
+      has_targets()
+      {
+        return true;
+      }
+
+      static double
+      target_factor(const unsigned int /*cell*/)
+      {
+        return 1.;
+      }
+
+      MatrixAlong
+      target(const unsigned int point) const
+      {
+        return wish(point);
+      }
+
+      static double
+      by_importance(const double /*by_targets_size*/)
+      {
+        return 0.;
       }
 
       const LawsOfCells &
@@ -97,19 +129,19 @@ namespace Exemplar
       double
       share(const unsigned int point) const
       {
-        return shares[point];
+        return s * shares[point];
       }
 
       double
       share_of_patch(const unsigned int patch) const
       {
-        return shares_of_patches[patch];
+        return s * shares_of_patches[patch];
       }
 
       MatrixAlong
       wish(const unsigned int point) const
       {
-        return { strains[point], {} };
+        return { load_stored(strains.data(), point, 1, 0), {} };
       }
 
       static PatchScene
@@ -159,28 +191,38 @@ namespace Exemplar
     private:
       /// Skips points that a guard held, and their patches, as StrainDamping does.
       void
-      look_back(const unsigned int point, const WeightedPositions &past)
+      look_back(const WeightedPositions &past)
       {
-        const CellLaw         law = laws[fe_space.cell_of(point)];
-        const Matrix3<double> F   = fe_space.deformation_gradient(point, *past.positions);
-        const Matrix3<double> R   = model_rotation(law, F);
-        strains[point]   = combine(1., strains[point], past.weight, model_strain(law, R, F));
-        const double p_0 = problem.examples.poses.constants().guard_bound;
-        if (traits_of(law).has_guard
-            && !(product_of_sums(symmetric_part(transpose_times(R, F))) >= p_0))
-          shares[point] = 0.;
+        CellField                    &field = problem.cells.get_field();
+        dealii::AlignedVector<double> places(4 * field.n_nodes());
+        for (unsigned int node = 0; node < field.n_nodes(); ++node)
+          for (unsigned int c = 0; c < 3; ++c)
+            places[4 * node + c] = (*past.positions)[3 * node + c];
+        const CellTask task = field.task_elsewhere(places.data());
+        for_each_part(n_parts, task.cells.n_batches(), field.n_threads(),
+                      [&](const std::size_t, const std::size_t begin, const std::size_t end)
+                      {
+                        field.for_each_law(task,
+                                           [&](const CellTask &of_law) {
+                                             field.loops().add_strains(of_law, past.weight, begin,
+                                                                       end, strains.data(),
+                                                                       shares.data());
+                                           });
+                      });
       }
 
       static constexpr std::size_t n_parts = 16; ///< parts of the loop, whatever the threads
 
-      const Problem                       &problem;
+      Problem                             &problem;
       const ExampleStrains                &of_examples;
       const FESpace                       &fe_space;
       const std::vector<WeightedPositions> history;
       const LawsOfCells                   &laws;
       std::vector<Vector>                  by_past;
-      std::vector<double>                  shares, shares_of_patches; ///< s, or 0 where left out
-      std::vector<Matrix3<double>>         strains;                   ///< sum c_m e(x_m)
+      double                               s = 1.;
+      dealii::AlignedVector<double>        shares;            ///< 1, or 0 where left out
+      std::vector<double>                  shares_of_patches; ///< likewise
+      dealii::AlignedVector<double>        strains;           ///< sum c_m e(x_m), in batches
     };
   } // namespace
 
@@ -207,7 +249,7 @@ namespace Exemplar
   }
 
   void
-  add_slope_of_damping(const Problem        &problem,
+  add_slope_of_damping(Problem              &problem,
                        const ExampleStrains &of_examples,
                        const State          &start,
                        const Direction      &direction,
@@ -215,14 +257,14 @@ namespace Exemplar
                        MotionDerivatives    &of_motion)
   {
     const TimeIntegrator &integrator = *problem.actions.integrator;
-    const auto            history    = integrator.history(start);
-    DampingPart           unit(problem, of_examples, history, integrator.rate_factor());
+    DampingPart           part(problem, of_examples, integrator.history(start));
+    part.set_factor(integrator.rate_factor());
     of_motion.by_stiffness_damping
-        = SlopeOfPoints<DampingPart>(problem, direction.positions, unit).slope();
+        = SlopeOfPoints<DampingPart>(problem, direction.positions, part).slope();
     const double s = integrator.stiffness_damping_factor();
     if (!(s > 0.))
       return;
-    DampingPart part(problem, of_examples, history, s);
+    part.set_factor(s);
     SlopeOfPoints<DampingPart>(problem, direction.positions, part).add_to(sums);
     of_motion.by_past = part.take_by_past();
   }

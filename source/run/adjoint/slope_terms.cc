@@ -43,13 +43,6 @@ namespace Exemplar
   }
 
   void
-  add_volume(const FESpace &fe_space, const unsigned int cell, const double by_volume, Vector &to)
-  {
-    add_at_vertices(fe_space, cell,
-                    combine(by_volume, identity_matrix<double>(), 0., Matrix3<double>{}), to);
-  }
-
-  void
   add_slope_of_ridge(const Problem &problem, const Direction &direction, SlopeDerivatives &sums)
   {
     if (problem.examples.weights.n_unknown() == 0)
@@ -90,11 +83,9 @@ namespace Exemplar
                                                 });
       if (!material.elasticity_of_examples().youngs_modulus)
         sums.by_young[cell] += by_unit * volume * mean;
-      add_volume(fe_space, cell,
-                 volume
-                     * (by_unit * material.youngs_modulus_of_examples(cell) * mean
-                        + sigma * (here - mean) / total + price),
-                 sums.by_rest_positions);
+      sums.add_by_volume(cell, volume
+                                   * (by_unit * material.youngs_modulus_of_examples(cell) * mean
+                                      + sigma * (here - mean) / total + price));
     }
   }
 
@@ -124,7 +115,7 @@ namespace Exemplar
           work += part * loads.gravity[c];
         }
       sums.by_density[cell] += volume * work;
-      add_volume(fe_space, cell, mass * work, sums.by_rest_positions);
+      sums.add_by_volume(cell, mass * work);
     }
   }
 } // namespace Exemplar

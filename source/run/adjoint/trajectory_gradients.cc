@@ -90,6 +90,12 @@ namespace Exemplar
       add(some.by_young, to.by_young);
       add(some.by_poisson, to.by_poisson);
       add(some.by_density, to.by_density);
+      for (std::size_t cell = 0; cell < to.by_gradients.size(); ++cell)
+      {
+        to.by_gradients[cell] = combine(1., to.by_gradients[cell], 1., some.by_gradients[cell]);
+        for (std::size_t k = 0; k < to.by_constants[cell].size(); ++k)
+          to.by_constants[cell][k] += some.by_constants[cell][k];
+      }
       for (std::size_t i = 0; i < to.by_strains.size(); ++i)
         for (std::size_t k = 0; k < n_symmetric; ++k)
           to.by_strains[i][k] += some.by_strains[i][k];

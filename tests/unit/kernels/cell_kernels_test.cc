@@ -89,7 +89,47 @@ namespace Exemplar::Testing
         kernels.add_rotations(task, 0, n_batches, rotation_sums.data());
         node_rotations.resize(9 * n_nodes);
         kernels.closest_rotations(n_nodes, rotation_sums.data(), node_rotations.data());
+        find_slopes(kernels, task, body.random_positions(generator, 1.));
       }
+
+      void
+      find_slopes(const CellKernels &kernels, CellTask task, const dealii::Vector<double> &along)
+      {
+        task.damping        = {};
+        const std::size_t n = batched_size(task.cells.n_cells, 1);
+        strains.resize(n_symmetric * n);
+        factors.resize(n, 1.);
+        kernels.add_strains(task, 0.5, 0, task.cells.n_batches(), strains.data(), factors.data());
+        dealii::AlignedVector<double> changes(4 * along.size() / 3), targets(2 * strains.size());
+        for (unsigned int dof = 0; dof < along.size(); ++dof)
+          changes[dof / 3 * 4 + dof % 3] = along[dof];
+        for (std::size_t i = 0; i < targets.size(); ++i)
+          targets[i] = 0.1 * std::sin(0.7 * i);
+        works.resize(n);
+        // batch by batch, as arrays begin with the first one of a loop
+        for (std::size_t begin = 0; begin < task.cells.n_batches(); ++begin)
+          kernels.works(task,
+                        { changes.data(), &targets[begin * batch_size * 2 * n_symmetric],
+                          &works[begin * batch_size] },
+                        begin, begin + 1);
+        if (!law_has_slope(task.cells.law))
+          return;
+        slopes.resize(SlopeEntry::size * n);
+        kernels.slopes(task, { changes.data(), targets.data(), slopes.data() }, 0,
+                       task.cells.n_batches());
+        for (std::size_t point = 0; point < n; ++point)
+          if (slopes[batch_index(point, SlopeEntry::size, SlopeEntry::is_guarded)] != 0.)
+            for (std::size_t k = 0; k < SlopeEntry::is_guarded; ++k)
+              slopes[batch_index(point, SlopeEntry::size, k)] = 0.;
+      }
+
+      static bool
+      law_has_slope(const CellLaw law)
+      {
+        return law_functions<double>(law).slope != nullptr;
+      }
+
+      dealii::AlignedVector<double> strains, factors, works, slopes;
 
       dealii::AlignedVector<double> nodal_sums, weight_sums, weight_linear_term, coupling,
           convex_coupling;
@@ -143,6 +183,10 @@ namespace Exemplar::Testing
         EXPECT_LT(difference(loops.coupling, scalar.coupling), tolerance);
         EXPECT_LT(difference(loops.convex_coupling, scalar.convex_coupling), tolerance);
         EXPECT_LT(difference(loops.node_rotations, scalar.node_rotations), 1e-5);
+        EXPECT_LT(difference(loops.strains, scalar.strains), tolerance);
+        EXPECT_EQ(difference(loops.factors, scalar.factors), 0.);
+        EXPECT_LT(difference(loops.works, scalar.works), tolerance);
+        EXPECT_LT(difference(loops.slopes, scalar.slopes), tolerance);
       }
     }
 

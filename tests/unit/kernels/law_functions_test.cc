@@ -104,9 +104,10 @@ namespace Exemplar::Testing::AtPoints
       const CellLaw               law;
       const LawFunctions<double> &functions;
       LawInput<double>            in;
+      std::vector<double>         constants;
 
     private:
-      std::vector<double> constants, history;
+      std::vector<double> history;
     };
 
     Matrix3<double>
@@ -194,6 +195,77 @@ namespace Exemplar::Testing::AtPoints
                                                       1e-4)),
                   1e-7);
       }
+    }
+
+    TEST_P(LawFunctionsTest, SlopesAreThoseOfTheEnergyAndHaveTheirDerivatives)
+    {
+      if (point.functions.slope == nullptr || point.in.is_damped)
+        GTEST_SKIP();
+      LawChange<double> change{ random_matrix(generator),
+                                symmetric_part(random_matrix(generator)) };
+      const auto        slope_at = [&](const Matrix3<double> &there)
+      {
+        LawSlope<double> slope;
+        point.functions.slope(point.at(there), change, slope);
+        return slope;
+      };
+      const LawSlope<double> found = slope_at(F);
+      EXPECT_FALSE(found.is_guarded);
+      const Matrix3<double> D = point.in.target, E = symmetric_part(random_matrix(generator)),
+                            M = random_matrix(generator);
+      const double expected   = derivative(
+          [&](const double h)
+          {
+            point.in.target = moved(D, h, change.target);
+            return in_matrix(point.energy(moved(F, h, change.F)));
+          },
+          1e-4)[0][0];
+      point.in.target = D;
+      EXPECT_NEAR(found.value, expected, 1e-8);
+      // `set` moves one of the variables by h, and back for 0
+      const auto by = [&](const auto &set)
+      {
+        const double slope = derivative(
+            [&](const double h)
+            {
+              set(h);
+              return in_matrix(slope_at(F).value);
+            },
+            1e-4)[0][0];
+        set(0.);
+        return slope;
+      };
+      EXPECT_NEAR(contract(found.by_F, M),
+                  derivative([&](const double h)
+                             { return in_matrix(slope_at(moved(F, h, M)).value); },
+                             1e-4)[0][0],
+                  1e-8);
+      const LawChange<double> at = change;
+      EXPECT_NEAR(contract(found.by_change_of_F, M),
+                  by([&](const double h) { change.F = moved(at.F, h, M); }), 1e-8);
+      EXPECT_NEAR(contract(found.by_target, E),
+                  by([&](const double h) { point.in.target = moved(D, h, E); }), 1e-8);
+      EXPECT_NEAR(contract(found.by_change_of_target, E),
+                  by([&](const double h) { change.target = moved(at.target, h, E); }), 1e-8);
+      for (std::size_t k = 0; k < LawSlope<double>::n_constants; ++k)
+      {
+        const double constant = point.constants[k * batch_size];
+        EXPECT_NEAR(found.by_constants[k],
+                    by([&](const double h) { point.constants[k * batch_size] = constant + h; }),
+                    1e-8);
+      }
+      EXPECT_NEAR(
+          found.by_importance,
+          by([&](const double h) { point.in.examples.importance = examples.importance + h; }),
+          1e-8);
+      point.in.has_target          = false;
+      point.in.target              = {};
+      point.in.examples.importance = 0.;
+      LawSlope<double> slope;
+      point.functions.slope(point.at(F), change, slope);
+      const Matrix3<double> P = point.force(F);
+      EXPECT_NEAR(slope.value, contract(P, change.F), 1e-12);
+      EXPECT_EQ(contract(slope.by_target, slope.by_target), 0.);
     }
 
     TEST_P(LawFunctionsTest, AConvexTangentIsNotNegative)

@@ -13,10 +13,6 @@ namespace Exemplar
   Matrix3<double>
   pulled_back(CellLaw law, const Matrix3<double> &F, const Matrix3<double> &by_strain);
 
-  /// (s_1+s_2)(s_2+s_3)(s_3+s_1) of a stretch S with the principal stretches s_i.
-  double
-  product_of_sums(const Matrix3<double> &S);
-
   /// The full strains of the example poses, before Examples/Acts on selects a part of them, and the
   /// poses that set the bounds of guards.
   class ExampleStrains
@@ -76,7 +72,7 @@ namespace Exemplar
     std::vector<std::optional<unsigned int>> bound_poses; ///< of each patch
   };
 
-  /// Chain rule: add the derivatives by strains to those by the poses and by the rest positions.
+  /// Chain rule: add the derivatives by strains to those by the poses and by shape gradients.
   void
   carry_strains_to_poses(const Problem &problem, SlopeDerivatives &sums);
 

@@ -10,12 +10,6 @@
 
 namespace Exemplar
 {
-  /// Whether forces are the derivative of an energy that does not depend on earlier steps.
-  template <typename Cell>
-  constexpr bool has_potential = Cell::traits.n_history == 0
-                                 && !(Cell::traits.exact_is_rotated
-                                      && Cell::traits.has_rotations); // frozen forces have none
-
   inline bool
   law_has_potential(const CellLaw law)
   {

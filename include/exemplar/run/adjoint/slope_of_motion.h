@@ -29,7 +29,7 @@ namespace Exemplar
 
   /// Adds the slope of stiffness damping in a step from `start`.
   void
-  add_slope_of_damping(const Problem        &problem,
+  add_slope_of_damping(Problem              &problem,
                        const ExampleStrains &of_examples,
                        const State          &start,
                        const Direction      &direction,

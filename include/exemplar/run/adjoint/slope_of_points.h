@@ -3,9 +3,10 @@
 #define exemplar_slope_of_points_h
 
 #include <exemplar/base/loop_parts.h>
+#include <exemplar/kernels/point_shape.h>
 #include <exemplar/run/adjoint/example_strains.h>
-#include <exemplar/run/adjoint/point_shape.h>
 #include <exemplar/run/adjoint/point_stress.h>
+#include <exemplar/run/adjoint/slope_loops.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
 // The derivatives of the slope of a potential that is a sum over points and patches. Each term is
@@ -117,13 +118,14 @@ namespace Exemplar
   /// `Part` specifies the potential: Part::Evaluation of point_stress.h, its factors
   /// share(point) and share_of_patch(patch), wish(point), patch_scene(law), and
   /// square_of_bound(patch, point) for the guard (26). add_wish() and add_guard_bound() pass on
-  /// derivatives by the wish and by p_0.
+  /// derivatives by the wish and by p_0. Where is_of_law_alone(), points have the energy of their
+  /// law with the target(point), which is target_factor(cell) times the wish, and no more.
   template <typename Part>
   class SlopeOfPoints
   {
   public:
     /// All arguments must outlive it.
-    SlopeOfPoints(const Problem &problem, const Vector &along, Part &part)
+    SlopeOfPoints(Problem &problem, const Vector &along, Part &part)
         : problem(problem), along(along), fe_space(problem.body.fe_space),
           patches(problem.body.patches),
           laws(part.get_laws()), scene{ { problem.body.material, problem.body.cell_material,
@@ -146,6 +148,13 @@ namespace Exemplar
     slope() const
     {
       double sum = 0.;
+      if (part.is_of_law_alone())
+      {
+        make_loops().for_each_work([this](const unsigned int point) { return part.target(point); },
+                                   [&](const unsigned int point, const double work)
+                                   { sum += part.share(point) * work; });
+        return sum;
+      }
       for_each_found<double>([this](const unsigned int point)
                              { return slope_of(point, shape_at(point)); },
                              [&](const unsigned int, const double of_point) { sum += of_point; });
@@ -158,19 +167,8 @@ namespace Exemplar
     {
       for (const OfPatch &potential : of_patches)
         sums.by_importance += potential.by_importance.by[0];
-      double by_guard_bound = 0.;
-      for_each_found<Contribution>(
-          [this](const unsigned int point)
-          {
-            const PointShape shape = shape_at(point);
-            return is_guarded(point, shape) ? contribution<OfPoint::Guarded>(point, shape)
-                                            : contribution<OfPoint::Regular>(point, shape);
-          },
-          [&](const unsigned int point, const Contribution &of_point)
-          {
-            add(point, of_point, sums);
-            by_guard_bound += of_point.by_constants[OfPoint::guard_bound - 1];
-          });
+      const double by_guard_bound
+          = part.is_of_law_alone() ? add_by_loops(sums) : add_by_points(sums);
       if (by_guard_bound != 0.)
         part.add_guard_bound(by_guard_bound, sums);
     }
@@ -181,6 +179,75 @@ namespace Exemplar
     static constexpr std::size_t n_parts = 16; ///< of loops, whatever the threads
 
     using OfPatch = PatchPotential<Changing>;
+
+    SlopeLoops
+    make_loops() const
+    {
+      return SlopeLoops(problem.cells.get_field(), problem.state.positions, along,
+                        Part::is_damping);
+    }
+
+    /// Returns the derivative by p_0.
+    double
+    add_by_points(SlopeDerivatives &sums)
+    {
+      double by_guard_bound = 0.;
+      for_each_found<Contribution>([this](const unsigned int point) { return contribution(point); },
+                                   [&](const unsigned int point, const Contribution &of_point)
+                                   {
+                                     add(point, of_point, sums);
+                                     by_guard_bound
+                                         += of_point.by_constants[OfPoint::guard_bound - 1];
+                                   });
+      return by_guard_bound;
+    }
+
+    /// The same by the loops over the cells, but where the guard of Eq. (16) acts.
+    double
+    add_by_loops(SlopeDerivatives &sums)
+    {
+      double by_guard_bound = 0.;
+      make_loops().for_each_slope(
+          part.has_targets(), [this](const unsigned int point) { return part.target(point); },
+          [&](const unsigned int point, const FoundSlope &found)
+          {
+            if (found[SlopeEntry::is_guarded] == 0.)
+              return add(point, found, sums);
+            const Contribution of_point = contribution(point);
+            add(point, of_point, sums);
+            by_guard_bound += of_point.by_constants[OfPoint::guard_bound - 1];
+          });
+      return by_guard_bound;
+    }
+
+    void
+    add(const unsigned int point, const FoundSlope &found, SlopeDerivatives &sums)
+    {
+      const double       share     = part.share(point);
+      const unsigned int cell      = fe_space.cell_of(point);
+      Matrix3<double>    by_F      = found.matrix(SlopeEntry::by_F),
+                      by_gradients = found.matrix(SlopeEntry::by_gradients);
+      if (Part::is_damping)
+      {
+        by_F         = times(share, by_F);
+        by_gradients = times(share, by_gradients);
+      }
+      add_forces(fe_space, point, by_F, sums.by_positions);
+      if (part.has_targets())
+      {
+        const MatrixAlong by_target{ found.symmetric_matrix(SlopeEntry::by_target),
+                                     found.symmetric_matrix(SlopeEntry::by_change_of_target) };
+        const double      factor = share * part.target_factor(cell);
+        part.add_wish(point, { times(factor, by_target.value), times(factor, by_target.change) },
+                      nullptr, sums, by_gradients);
+        sums.by_importance += part.by_importance(found[SlopeEntry::by_targets_size]);
+      }
+      for (std::size_t k = 0; k < LawSlope<double>::n_constants; ++k)
+        sums.by_constants[cell][k] += share * found[SlopeEntry::by_constants + k];
+      sums.by_importance += share * found[SlopeEntry::by_importance];
+      sums.add_by_volume(cell, share * found[SlopeEntry::value]);
+      sums.add_by_shape_gradients(cell, by_gradients);
+    }
 
     /// Evaluate find(point) at all points in parallel, some at a time, and take the results in the
     /// points' order.
@@ -287,6 +354,14 @@ namespace Exemplar
       double                             by_volume; ///< times the volume
     };
 
+    Contribution
+    contribution(const unsigned int point) const
+    {
+      const PointShape shape = shape_at(point);
+      return is_guarded(point, shape) ? contribution<OfPoint::Guarded>(point, shape)
+                                      : contribution<OfPoint::Regular>(point, shape);
+    }
+
     template <typename Number>
     Contribution
     contribution(const unsigned int point, const PointShape &shape) const
@@ -327,12 +402,11 @@ namespace Exemplar
       sums.by_young[cell] += of_point.by_constants[OfPoint::E - 1];
       sums.by_poisson[cell] += of_point.by_constants[OfPoint::nu - 1];
       sums.by_importance += of_point.by_constants[OfPoint::eta - 1];
-      add_at_vertices(fe_space, cell,
-                      combine(of_point.by_volume, identity_matrix<double>(), -1., by_gradients),
-                      sums.by_rest_positions);
+      sums.add_by_volume(cell, of_point.by_volume);
+      sums.add_by_shape_gradients(cell, by_gradients);
     }
 
-    const Problem       &problem;
+    Problem             &problem;
     const Vector        &along;
     const FESpace       &fe_space;
     const Patches       &patches;

@@ -22,11 +22,6 @@ namespace Exemplar
                   const Matrix3<double> &by_gradient,
                   Vector                &to);
 
-  /// Add derivatives by the vertices' rest positions of a function of a cell's volume V;
-  /// `by_volume` is V times its derivative.
-  void
-  add_volume(const FESpace &fe_space, unsigned int cell, double by_volume, Vector &to);
-
   /// Slope of the ridge sigma/2 sum w_i^2 on unknown weights and of the cost of moving them, Eq.
   /// (27).
   void

@@ -2,10 +2,11 @@
 #ifndef exemplar_point_shape_h
 #define exemplar_point_shape_h
 
-#include <exemplar/run/adjoint/laws_with_derivatives.h>
+#include <exemplar/kernels/polar_decomposition.h>
+#include <exemplar/kernels/rotation_guard.h>
 
 // The deformation gradient F = R S in the form that a law needs, in the frame of its rotation, and
-// derivatives transformed back.
+// derivatives transformed back. No deal.II header here: see matrix3.h.
 
 namespace Exemplar
 {
@@ -21,33 +22,46 @@ namespace Exemplar
   }
 
   /// A matrix, and its change along a direction.
-  struct MatrixAlong
+  template <typename Number>
+  struct ChangingMatrix
   {
-    Matrix3<double> value{}, change{};
+    Matrix3<Number> value{}, change{};
   };
 
+  using MatrixAlong = ChangingMatrix<double>;
+
   /// Derivatives by F, and by its change dF along a direction.
+  template <typename Number>
   struct ShapeDerivatives
   {
-    Matrix3<double> by_F, by_dF;
+    Matrix3<Number> by_F, by_dF;
   };
 
   /// S of F = R S for laws with rotations, whose energy depends on S alone; else F itself.
-  class PointShape
+  template <typename Number>
+  class ShapeAtPoint
   {
   public:
     /// Takes F and its change dF along a direction.
-    PointShape(const bool has_rotations, const Matrix3<double> &F, const Matrix3<double> &dF)
-        : has_rotations(has_rotations), R(identity_matrix<double>()), turn{}, gradient{ F, dF },
-          shape(gradient)
+    ShapeAtPoint(const bool has_rotations, const Matrix3<Number> &F, const Matrix3<Number> &dF)
+        : ShapeAtPoint(
+            has_rotations, has_rotations ? closest_rotation(F) : identity_matrix<Number>(), F, dF)
+    {
+    }
+
+    /// The same with the rotation R of F.
+    ShapeAtPoint(const bool             has_rotations,
+                 const Matrix3<Number> &R,
+                 const Matrix3<Number> &F,
+                 const Matrix3<Number> &dF)
+        : has_rotations(has_rotations), R(R), turn{}, gradient{ F, dF }, shape(gradient)
     {
       if (!has_rotations)
         return;
-      R                       = closest_rotation(F);
       shape.value             = symmetric_part(transpose_times(R, F));
-      const Matrix3<double> M = transpose_times(R, dF);
+      const Matrix3<Number> M = transpose_times(R, dF);
       // Eq. (18): the equation of W with M in the place of the products
-      Matrix3<double> B = combine(-1., shape.value, 0., shape.value), skew;
+      Matrix3<Number> B = combine(Number(-1.), shape.value, Number(0.), shape.value), skew;
       for (int i = 0; i < 3; ++i)
       {
         B[i][i] += trace(shape.value);
@@ -55,37 +69,39 @@ namespace Exemplar
           skew[i][j] = M[i][j] - M[j][i];
       }
       turn         = skew_matrix(inverse_of_symmetric(B) * axial_vector(skew));
-      shape.change = symmetric_part(combine(1., M, -1., turn * shape.value));
+      shape.change = symmetric_part(combine(Number(1.), M, Number(-1.), turn * shape.value));
     }
 
     /// F and its change.
-    const MatrixAlong &
+    const ChangingMatrix<Number> &
     get_gradient() const
     {
       return gradient;
     }
 
     /// The matrix S, or F, and its change.
-    const MatrixAlong &
+    const ChangingMatrix<Number> &
     get() const
     {
       return shape;
     }
 
     /// Derivatives by F and dF of the slope of a potential with this R^T P.
-    ShapeDerivatives
-    derivatives(const MatrixAlong &of) const
+    ShapeDerivatives<Number>
+    derivatives(const ChangingMatrix<Number> &of) const
     {
       if (!has_rotations)
         return { of.change, of.value };
-      return { R * combine(1., turn * of.value, 1., of.change), R * of.value };
+      return { R * combine(Number(1.), turn * of.value, Number(1.), of.change), R * of.value };
     }
 
   private:
-    bool            has_rotations;
-    Matrix3<double> R, turn; ///< R and R^T dR
-    MatrixAlong     gradient, shape;
+    bool                   has_rotations;
+    Matrix3<Number>        R, turn; ///< R and R^T dR
+    ChangingMatrix<Number> gradient, shape;
   };
+
+  using PointShape = ShapeAtPoint<double>;
 } // namespace Exemplar
 
 #endif
