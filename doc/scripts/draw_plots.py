@@ -4,11 +4,11 @@
 
 Usage: python3 doc/scripts/draw_plots.py [NAME]...      all, if none is named; Debian: gnuplot-nox
 
-NAME is space, time_to_error, growth_cells, growth_examples or a study of which a page shows the plot.
+NAME is space, time_to_error, growth_cells, growth_examples, roofline or a study of which a page shows the plot.
 """
 import sys
 
-from plots import BLACK, MARKS, PALETTE, curves, gnuplot, line, pareto_front, plot, plot_study
+from plots import BLACK, MARKS, PALETTE, curves, gnuplot, line, pareto_front, plot, plot_study, smooth
 from study_tables import ELEMENTS, FIGURES, FILES, PAGES, STUDIES, axes, error, own_limit, read, space_runs
 
 SPACE_BODIES = {"bar": "bar under its weight", "cook": "Cook's membrane", "cat": "cat", "horse": "horse"}
@@ -94,9 +94,25 @@ def draw_growth_examples():
          [(None, line(0), [(count + 1, ratio) for count, ratio in points])], (640, 420))
 
 
+def draw_roofline():
+    """Operations a second of a step's parts against operations a byte, below what the machine can do."""
+    best = {row["what"]: float(row["value"]) for row in read("machine")}
+    peak = best["product of matrices, single precision, GFLOP/s"]
+    roofs = [("reading 4 MiB", best["reading 4 MiB, GB/s"], 1), ("reading 512 MiB", best["reading 512 MiB, GB/s"], 2)]
+    lines = [(f"{name}: {rate:.0f} GB/s; product of matrices: {peak:.0f} GFLOP/s", smooth(BLACK, dash),
+              [(.1, .1 * rate), (peak / rate, peak), (1000, peak)]) for name, rate, dash in roofs]
+    rows = read("roofline")
+    parts = list(dict.fromkeys(row["part"] for row in rows))
+    for variant, body in enumerate(dict.fromkeys(row["body"] for row in rows)):
+        lines += [(f"{row['part']}, {body}", f"points pt {MARKS[variant]} ps 1.4 lc rgb '{PALETTE[parts.index(row['part'])]}'",
+                   [(float(row["operations_per_byte"]), float(row["gflop_s"]))]) for row in rows if row["body"] == body]
+    plot(FIGURES / "roofline.svg", "set logscale xy\nset xrange [.1:1000]\nset yrange [3:400]\nset format '%g'\n"
+         "set xlabel 'operations a byte'\nset ylabel 'GFLOP/s'", lines, (800, 560))
+
+
 def main():
     shown = [name for name in STUDIES if any(f"figures/{name}.svg" in page.read_text() for page in PAGES)]
-    makers = {"space": draw_space, "time_to_error": draw_time_to_error, "growth_cells": draw_growth_cells, "growth_examples": draw_growth_examples}
+    makers = {"space": draw_space, "time_to_error": draw_time_to_error, "growth_cells": draw_growth_cells, "growth_examples": draw_growth_examples, "roofline": draw_roofline}
     for name in sys.argv[1:] or [*shown, *makers]:
         makers.get(name, lambda: draw_study(name))()
 

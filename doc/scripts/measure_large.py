@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Print the tables of doc/measured.md on large meshes: cholesky beside iterative, and a bar of a million cells.
+"""Print the tables of doc/speed.md on large meshes: cholesky beside iterative, and a bar of a million cells.
 
 Usage: python3 doc/scripts/measure_large.py [BINARY] [PART]...     on a quiet machine
 PART is crossover (five minutes, 2 GB), million (a minute, 3.5 GB) or steps (15 minutes, 5 GB); all by default.
