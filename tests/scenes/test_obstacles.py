@@ -237,6 +237,13 @@ class Statics(ObstacleTest):
         # 1e-6 E L times how far it has sunk, at most the width
         self.assertLess(abs(springs), 1e-6 * 1e7 * 0.1 * sqrt(3) * 5e-3 * 0.1 * sqrt(3))
 
+    def test_a_body_that_an_obstacle_presses_is_loaded(self):
+        pressed = {**self.CUBE, "Loads/Gravity": None, "Handles/Names": "soles", "Handles/soles/Select": "boundary 5",
+                   "Obstacles/floor/Shape": "plane 0 0 0.06 0 0 -1", "Obstacles/floor/Motion": "0; 0; -0.02*t"}
+        run = self.attempt(pressed)
+        self.assertEqual((run.status, "Nothing loads the body" in run.stderr), (0, False), run.stderr)
+        self.assertLess(read_csv(run.output)[-1]["contact_floor_z"], -1)
+
     def test_friction_holds_a_body_on_a_slope(self):
         for tan in (0, 0.1, 0.4):
             cos = 1 / sqrt(1 + tan**2)

@@ -189,7 +189,7 @@ namespace Exemplar
     is_unloaded(const Problem &problem)
     {
       if (problem.parameters.scene != SceneKind::statics || problem.actions.loads != nullptr
-          || problem.examples.weights.are_prescribed())
+          || problem.actions.obstacles != nullptr || problem.examples.weights.are_prescribed())
         return false;
       const Vector &rest = problem.body.fe_space.rest_positions();
       Vector        held = rest;
