@@ -12,8 +12,8 @@
 #include <algorithm>
 #include <array>
 
-// The derivatives of a slope in bodies whose points have the energies of their laws alone, by the
-// loops over the cells.
+// The derivatives of a slope in bodies whose points have the energies of their laws alone, and the
+// pressures of patches, by the loops over the cells.
 
 namespace Exemplar
 {
