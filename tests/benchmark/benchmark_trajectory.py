@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the gradient of a function of 100 steps by Young's modulus of all cells costs beside the steps, in seconds of the
-processor and in memory beyond the recorded states. The least of a few rounds of each is shown.
+processor and in memory beyond the recorded states, with the default dilatation of patches and with that of cells. The least of
+a few rounds of each is shown.
 
 Usage: PYTHONPATH=build/release/python python3 tests/benchmark/benchmark_trajectory.py [--rounds N] [SCENE...]
 """
@@ -14,6 +15,8 @@ import numpy as np
 import exemplar
 
 SCENES = Path(__file__).parent / "scenes"
+ROOT = Path(__file__).parents[2]
+CELLS = "set Dilatation = cells"
 
 
 def highest_memory():
@@ -29,8 +32,11 @@ def seconds(action):
     return time.process_time() - begin
 
 
-def measure(scene, n_steps, rounds):
-    problem = exemplar.Problem(str(scene))
+def measure(scene, dilatation, n_steps, rounds):
+    text = scene.read_text().replace("../../../", f"{ROOT}/")
+    if CELLS not in text:
+        raise SystemExit(f"{scene} does not have the line '{CELLS}', in which the dilatation is varied.")
+    problem = exemplar.Problem(text.replace(CELLS, f"set Dilatation = {dilatation}"))
     by_positions = [np.ones_like(problem.positions)] * n_steps
     forward, backward, beyond = [], [], []
 
@@ -45,7 +51,7 @@ def measure(scene, n_steps, rounds):
         before = highest_memory()
         backward.append(seconds(lambda: trajectory.vjp(by_positions)))
         beyond.append(highest_memory() - before)
-    print(f"{scene.stem}: {len(problem.cells)} cells, {n_steps} steps: forward {min(forward):.3f} s, backward {min(backward):.3f} s, "
+    print(f"{scene.stem}, {dilatation}: {len(problem.cells)} cells, {n_steps} steps: forward {min(forward):.3f} s, backward {min(backward):.3f} s, "
           f"ratio {min(backward) / min(forward):.2f}; memory {beyond[0]:.1f} MB, in further rounds {min(beyond):.1f} MB")
 
 
@@ -58,7 +64,8 @@ def main():
     arguments = parser.parse_args()
     warnings.simplefilter("ignore")
     for scene in arguments.scenes:
-        measure(scene, arguments.steps, arguments.rounds)
+        for dilatation in ("patches", "cells"):
+            measure(scene, dilatation, arguments.steps, arguments.rounds)
 
 
 if __name__ == "__main__":

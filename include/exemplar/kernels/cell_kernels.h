@@ -72,6 +72,10 @@ namespace Exemplar
     /// Find SlopeEntry::value alone, one number a cell, without the guard of the stretch.
     void (*works)(const CellTask &, const SlopeTask &, std::size_t begin, std::size_t end);
 
+    /// Find the traces of strains and their changes, TraceEntry::size numbers a cell, in laws with
+    /// trace_gradient_is_R.
+    void (*traces)(const CellTask &, const SlopeTask &, std::size_t begin, std::size_t end);
+
     /// Add `factor` times the strains e, with the rotations at the task's positions, to `strains`,
     /// six numbers a cell, and set `factors`, one a cell, to 0 where the guard of Eq. (16) acts.
     void (*add_strains)(const CellTask &,

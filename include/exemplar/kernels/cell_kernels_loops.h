@@ -30,6 +30,7 @@ namespace Exemplar::Loops
              coupling<Number, n_nodes>,
              slopes<Number, n_nodes>,
              works<Number, n_nodes>,
+             traces<Number, n_nodes>,
              add_strains<Number, n_nodes>,
              add_rotations<Number, n_nodes>,
              closest_rotations<Number>,

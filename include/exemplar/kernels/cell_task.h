@@ -146,13 +146,28 @@ namespace Exemplar
         size                         = 36;
   } // namespace SlopeEntry
 
+  /// What a loop finds of the trace of the strain, which patches need.
+  namespace TraceEntry
+  {
+    constexpr std::size_t value = 0, change = 1, square = 2, ///< |F|^2
+        may_be_thin = 3, ///< 1: ThinTrace may extend the trace, which value and change lack
+        size        = 4;
+  } // namespace TraceEntry
+
+  /// What a patch adds to slopes in its points, see LawChange.
+  namespace PressureEntry
+  {
+    constexpr std::size_t value = 0, change = 1, of_target = 2, change_of_target = 3, size = 4;
+  } // namespace PressureEntry
+
   /// Direction and output of the loop that finds slopes.
   struct SlopeTask
   {
     const double *along;             ///< changes of the positions, four numbers a node [m]
     const double *targets = nullptr; ///< 12 a cell: D and dD; null: no target
-    double       *found; ///< output, SlopeEntry::size a cell; the arrays of targets and of output
-                         ///< begin with the first batch of the loop
+    double       *found; ///< output, SlopeEntry::size a cell; the arrays of targets, pressures and
+                         ///< output begin with the first batch of the loop
+    const double *pressures = nullptr; ///< PressureEntry::size a cell; null: no patches
   };
 
   /// Input of a loop.

@@ -55,10 +55,16 @@ namespace Exemplar
   struct LawChange
   {
     Matrix3<Number> F, target;
+    Number          pressure = Number(0.); ///< change of LawInput::pressure [Pa]
+
+    /// The derivative of the energy of the point's patch by the trace of the target, and its change.
+    Number of_target = Number(0.), change_of_target = Number(0.); ///< [Pa]
   };
 
   /// The slope P:dF + dpsi/dD:dD of the energy psi(F, D) along a LawChange (dF, dD), with the guard
-  /// of the stretch and without damping and patches, and its derivatives.
+  /// of the stretch and without damping, and its derivatives. A point in a patch has the energy psi +
+  /// p tr e + q tr D instead, whose pressures p and q along the trace and that of the target change
+  /// with the direction by dp and dq.
   template <typename Number>
   struct LawSlope
   {
@@ -67,7 +73,7 @@ namespace Exemplar
     Number          value; ///< [Pa]
     Matrix3<Number> by_F, by_change_of_F;
     Matrix3<Number> by_target, by_change_of_target; ///< 0 without a target
-    Number          by_constants[n_constants];
+    Number          by_constants[n_constants];      ///< at fixed pressures
     Number          by_importance; ///< by ExampleNumbers::importance, at a fixed target
 
     /// Where the guard of Eq. (16) acts; the derivatives are wrong there.

@@ -48,6 +48,17 @@ namespace Exemplar::Laws
     return result;
   }
 
+  template <typename Number>
+  inline void
+  add_pressure(const Number &pressure, const Number &change, ChangingMatrix<Number> &to)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      to.value[i][i] += pressure;
+      to.change[i][i] += change;
+    }
+  }
+
   template <typename Along>
   inline ExampleNumbers<Along>
   examples_along(const ExampleConstants &examples, const std::size_t by_importance)
@@ -103,11 +114,23 @@ namespace Exemplar::Laws
     if constexpr (Of::by_importance < Along::n_derivatives)
       out.by_importance
           = slope_of([](const Along &number) { return number.by[Of::by_importance]; });
-    const auto of_F    = shape.derivatives({ parts<Number>(T, value), parts<Number>(T, changed) });
-    out.by_F           = of_F.by_F;
-    out.by_change_of_F = of_F.by_dF;
-    out.by_target      = parts<Number>(Q, changed);
-    out.by_change_of_target = parts<Number>(Q, value);
+    ChangingMatrix<Number> of_shape{ parts<Number>(T, value), parts<Number>(T, changed) },
+        of_target{ parts<Number>(Q, value), parts<Number>(Q, changed) };
+    if constexpr (Cell::traits.trace_gradient_is_R)
+      if (in.has_pressure)
+      {
+        out.value += in.pressure * trace(shape.get().change)
+                     + change.pressure * trace(cell.strain()).value
+                     + change.of_target * trace(change.target)
+                     + change.change_of_target * trace(in.target);
+        add_pressure(in.pressure, change.pressure, of_shape);
+        add_pressure(change.of_target, change.change_of_target, of_target);
+      }
+    const auto of_F         = shape.derivatives(of_shape);
+    out.by_F                = of_F.by_F;
+    out.by_change_of_F      = of_F.by_dF;
+    out.by_target           = of_target.change;
+    out.by_change_of_target = of_target.value;
   }
 } // namespace Exemplar::Laws
 

@@ -62,10 +62,21 @@ namespace Exemplar::Loops
     moves.positions = slope.along;
     change.F        = deformation_gradient(moves, group, tet);
     in.has_target   = slope.targets != nullptr;
-    if (!in.has_target)
-      return;
-    in.target     = load_strain(slope.targets, group, 2, 0);
-    change.target = load_strain(slope.targets, group, 2, 1);
+    in.has_pressure = slope.pressures != nullptr;
+    if (in.has_target)
+    {
+      in.target     = load_strain(slope.targets, group, 2, 0);
+      change.target = load_strain(slope.targets, group, 2, 1);
+    }
+    if (in.has_pressure)
+    {
+      const auto pressure = [&](const std::size_t entry)
+      { return load(slope.pressures, group, PressureEntry::size, entry); };
+      in.pressure             = pressure(PressureEntry::value);
+      change.pressure         = pressure(PressureEntry::change);
+      change.of_target        = pressure(PressureEntry::of_target);
+      change.change_of_target = pressure(PressureEntry::change_of_target);
+    }
   }
 
   /// With arrays that are indexed as those of all cells, of `size` numbers of output a cell.
@@ -75,7 +86,39 @@ namespace Exemplar::Loops
     slope.found -= begin * batch_size * size;
     if (slope.targets != nullptr)
       slope.targets -= begin * batch_size * 2 * n_symmetric;
+    if (slope.pressures != nullptr)
+      slope.pressures -= begin * batch_size * PressureEntry::size;
     return slope;
+  }
+
+  template <typename Number, int n_nodes>
+  inline void
+  traces(const CellTask   &task,
+         const SlopeTask  &of_part,
+         const std::size_t begin,
+         const std::size_t end)
+  {
+    const SlopeTask slope = from_first_batch(of_part, begin, TraceEntry::size);
+    CellTask        moves = task;
+    moves.positions       = slope.along;
+    for_each_group_of_law<Number>(
+        task.cells, begin, end,
+        [&](const LaneGroup<Number> &group)
+        {
+          const auto            tet    = load_tetrahedron<n_nodes>(task.cells, group);
+          const Matrix3<Number> R      = load_rotation(task.cells, group);
+          const Matrix3<Number> F      = deformation_gradient(task, group, tet);
+          const Matrix3<Number> dF     = deformation_gradient(moves, group, tet);
+          const Number          of_e   = trace(corotated_strain(R, F));
+          const Number          square = contract(F, F);
+          const auto            set    = [&](const std::size_t entry, const Number &value)
+          { store(task.cells, group, value, slope.found, TraceEntry::size, entry); };
+          set(TraceEntry::value, of_e);
+          set(TraceEntry::change, contract(R, dF));
+          set(TraceEntry::square, square);
+          set(TraceEntry::may_be_thin,
+              select(may_be_thin(of_e + Number(3.), square), Number(1.), Number(0.)));
+        });
   }
 
   template <typename Number, int n_nodes>

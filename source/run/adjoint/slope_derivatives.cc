@@ -3,6 +3,8 @@
 #include <exemplar/run/adjoint/slope_of_contact.h>
 #include <exemplar/run/adjoint/slope_of_points.h>
 
+#include <algorithm>
+
 // The slope of Psi, Eqs. (5), (25), (26), (37) and (38).
 
 namespace Exemplar
@@ -22,7 +24,12 @@ namespace Exemplar
                   const ExampleStrains      &strains,
                   const std::vector<double> &along)
           : problem(problem), along(along), fe_space(problem.body.fe_space),
-            patches(problem.body.patches), poses(problem.examples.poses), strains(strains)
+            patches(problem.body.patches), poses(problem.examples.poses), strains(strains),
+            has_volume_terms(patches.size() > 0
+                             && std::any_of(strains.get_laws().present().begin(),
+                                            strains.get_laws().present().end(),
+                                            [](const CellLaw law)
+                                            { return traits_of(law).has_volumetric_energy; }))
       {
       }
 
@@ -48,7 +55,7 @@ namespace Exemplar
       is_of_law_alone() const
       {
         const ExampleParameters &examples = problem.parameters.examples;
-        return patches.size() == 0
+        return !has_volume_terms
                && (!has_targets()
                    || (examples.acts_on == ActsOn::all && !(blended_part(examples.energy) > 0.)
                        && !problem.body.material.has_elasticity_of_examples()));
@@ -58,6 +65,13 @@ namespace Exemplar
       has_targets() const
       {
         return poses.size() > 0;
+      }
+
+      /// Whether the target's trace may be extended, as that of the strain.
+      static bool
+      may_be_thin(const unsigned int /*point*/)
+      {
+        return false;
       }
 
       double
@@ -156,6 +170,7 @@ namespace Exemplar
       const Patches             &patches;
       const ExamplePoses        &poses;
       const ExampleStrains      &strains;
+      const bool                 has_volume_terms; ///< of patches, Eq. (37)
     };
 
     SlopeDerivatives
@@ -189,14 +204,15 @@ namespace Exemplar
           = OfPoint::seeded<Number>(problem.examples.poses.constants().importance, OfPoint::eta);
       for (unsigned int cell = 0; cell < sums.by_constants.size(); ++cell)
       {
-        const auto C
-            = PointElasticity<Number>(material, cell, eta).of_law<Isotropic<Number>>(laws[cell]);
-        const auto by = [&](const std::size_t k)
+        const PointElasticity<Number> of(material, cell, eta);
+        const auto                    C          = of.of_law<Isotropic<Number>>(laws[cell]);
+        const Number                  of_patches = of.lambda_of_patches();
+        const auto                    by         = [&](const std::size_t k)
         {
           double sum = 0.;
           for (std::size_t i = 0; i < LawSlope<double>::n_constants; ++i)
             sum += sums.by_constants[cell][i] * C.number(i).by[k];
-          return sum;
+          return sum + sums.by_constants[cell][LawSlope<double>::n_constants] * of_patches.by[k];
         };
         sums.by_young[cell] += by(OfPoint::E);
         sums.by_poisson[cell] += by(OfPoint::nu);

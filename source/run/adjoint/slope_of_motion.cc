@@ -90,10 +90,18 @@ namespace Exemplar
         s = new_s;
       }
 
-      bool
-      is_of_law_alone() const
+      static bool
+      is_of_law_alone()
       {
-        return shares_of_patches.empty();
+        return true;
+      }
+
+      /// See ElasticPart.
+      bool
+      may_be_thin(const unsigned int point) const
+      {
+        const Matrix3<double> S = combine(1., wish(point).value, 1., identity_matrix<double>());
+        return Exemplar::may_be_thin(trace(S), contract(S, S));
       }
 
       static bool

@@ -105,17 +105,27 @@ namespace Exemplar::Testing
           changes[dof / 3 * 4 + dof % 3] = along[dof];
         for (std::size_t i = 0; i < targets.size(); ++i)
           targets[i] = 0.1 * std::sin(0.7 * i);
+        dealii::AlignedVector<double> pressures(PressureEntry::size * n);
+        for (std::size_t i = 0; i < pressures.size(); ++i)
+          pressures[i] = 0.2 * std::cos(0.9 * i);
+        traces.resize(TraceEntry::size * n);
         works.resize(n);
         // batch by batch, as arrays begin with the first one of a loop
         for (std::size_t begin = 0; begin < task.cells.n_batches(); ++begin)
+        {
           kernels.works(task,
                         { changes.data(), &targets[begin * batch_size * 2 * n_symmetric],
-                          &works[begin * batch_size] },
+                          &works[begin * batch_size],
+                          &pressures[begin * batch_size * PressureEntry::size] },
                         begin, begin + 1);
+          kernels.traces(
+              task, { changes.data(), nullptr, &traces[begin * batch_size * TraceEntry::size] },
+              begin, begin + 1);
+        }
         if (!law_has_slope(task.cells.law))
           return;
         slopes.resize(SlopeEntry::size * n);
-        kernels.slopes(task, { changes.data(), targets.data(), slopes.data() }, 0,
+        kernels.slopes(task, { changes.data(), targets.data(), slopes.data(), pressures.data() }, 0,
                        task.cells.n_batches());
         for (std::size_t point = 0; point < n; ++point)
           if (slopes[batch_index(point, SlopeEntry::size, SlopeEntry::is_guarded)] != 0.)
@@ -129,7 +139,7 @@ namespace Exemplar::Testing
         return law_functions<double>(law).slope != nullptr;
       }
 
-      dealii::AlignedVector<double> strains, factors, works, slopes;
+      dealii::AlignedVector<double> strains, factors, works, traces, slopes;
 
       dealii::AlignedVector<double> nodal_sums, weight_sums, weight_linear_term, coupling,
           convex_coupling;
@@ -186,6 +196,7 @@ namespace Exemplar::Testing
         EXPECT_LT(difference(loops.strains, scalar.strains), tolerance);
         EXPECT_EQ(difference(loops.factors, scalar.factors), 0.);
         EXPECT_LT(difference(loops.works, scalar.works), tolerance);
+        EXPECT_LT(difference(loops.traces, scalar.traces), tolerance);
         EXPECT_LT(difference(loops.slopes, scalar.slopes), tolerance);
       }
     }

@@ -268,6 +268,63 @@ namespace Exemplar::Testing::AtPoints
       EXPECT_EQ(contract(slope.by_target, slope.by_target), 0.);
     }
 
+    // psi + p tr e + q tr D, whose p and q change along the direction
+    TEST_P(LawFunctionsTest, SlopesHaveTheTermsOfPressuresAndTheirDerivatives)
+    {
+      if (point.functions.slope == nullptr || point.in.is_damped
+          || !traits_of(point.law).trace_gradient_is_R)
+        GTEST_SKIP();
+      LawChange<double> change{ random_matrix(generator), symmetric_part(random_matrix(generator)),
+                                0.7, -0.3, 0.9 };
+      point.in.pressure   = 0.4;
+      const auto slope_at = [&](const Matrix3<double> &there, const bool has_pressure)
+      {
+        LawSlope<double> slope;
+        point.in.has_pressure = has_pressure;
+        point.functions.slope(point.at(there), change, slope);
+        return slope;
+      };
+      const Matrix3<double> D = point.in.target, E = symmetric_part(random_matrix(generator)),
+                            M        = random_matrix(generator);
+      const LawSlope<double> without = slope_at(F, false), found = slope_at(F, true);
+      const auto             of_trace = [&](const Matrix3<double> &there)
+      { return trace(model_strain(point.law, model_rotation(point.law, there), there)); };
+      // what pressures add to the slope at places F + h M and D + h E, along dF and dD
+      const auto added = [&](const Matrix3<double> &there, const Matrix3<double> &target)
+      {
+        return derivative(
+            [&](const double h)
+            {
+              return in_matrix((0.4 + 0.7 * h) * of_trace(moved(there, h, change.F))
+                               + (-0.3 + 0.9 * h) * trace(moved(target, h, change.target)));
+            },
+            1e-3)[0][0];
+      };
+      EXPECT_NEAR(found.value - without.value, added(F, D), 1e-9);
+      EXPECT_NEAR(contract(found.by_F, M) - contract(without.by_F, M),
+                  derivative([&](const double h) { return in_matrix(added(moved(F, h, M), D)); },
+                             1e-3)[0][0],
+                  1e-7);
+      EXPECT_NEAR(contract(found.by_target, E) - contract(without.by_target, E),
+                  derivative([&](const double h) { return in_matrix(added(F, moved(D, h, E))); },
+                             1e-3)[0][0],
+                  1e-7);
+      const auto along = [&](const Matrix3<double> &dF, const Matrix3<double> &dD)
+      {
+        change.F      = dF;
+        change.target = dD;
+        return slope_at(F, true).value - slope_at(F, false).value;
+      };
+      const Matrix3<double> dF = change.F, dD = change.target;
+      EXPECT_NEAR(contract(found.by_change_of_F, M) - contract(without.by_change_of_F, M),
+                  along(moved(dF, 1., M), dD) - along(dF, dD), 1e-12);
+      EXPECT_NEAR(contract(found.by_change_of_target, E) - contract(without.by_change_of_target, E),
+                  along(dF, moved(dD, 1., E)) - along(dF, dD), 1e-12);
+      for (std::size_t k = 0; k < LawSlope<double>::n_constants; ++k)
+        EXPECT_EQ(found.by_constants[k], without.by_constants[k]);
+      EXPECT_EQ(found.by_importance, without.by_importance);
+    }
+
     TEST_P(LawFunctionsTest, AConvexTangentIsNotNegative)
     {
       LawTangent<double> tangent;

@@ -49,6 +49,19 @@ namespace Exemplar
     }
   };
 
+  /// The integrands of the mean dilatation, where `wish` is the trace of the target.
+  template <typename Number>
+  PatchSums<Number>
+  dilatation_sums(const Number &lambda, const Number &trace, const Number &wish)
+  {
+    PatchSums<Number> sums;
+    sums[PatchSum::volume] = Number(1.);
+    sums[PatchSum::lambda] = lambda;
+    sums[PatchSum::trace]  = trace;
+    sums[PatchSum::wish]   = wish;
+    return sums;
+  }
+
   /// Settings that all patches of a law share.
   struct PatchScene
   {

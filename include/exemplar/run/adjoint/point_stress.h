@@ -91,12 +91,7 @@ namespace Exemplar
     PatchSums<Number>
     dilatation(const Number &wish) const
     {
-      PatchSums<Number> sums;
-      sums[PatchSum::volume] = Number(1.);
-      sums[PatchSum::lambda] = at.elasticity.lambda_of_patches();
-      sums[PatchSum::trace]  = extended_trace();
-      sums[PatchSum::wish]   = wish;
-      return sums;
+      return dilatation_sums(at.elasticity.lambda_of_patches(), extended_trace(), wish);
     }
 
     /// The trace of the strain, continued smoothly in thin cells.

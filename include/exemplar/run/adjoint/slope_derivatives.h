@@ -30,10 +30,11 @@ namespace Exemplar
     /// Derivatives by the examples' strains, by point and example, that by_poses and
     /// by_rest_positions lack until carry_strains_to_poses(), which empties it.
     std::vector<SymmetricEntries<double>> by_strains;
-    /// By the gradient of a field of changes of the rest positions, by cell, and by the first two
-    /// constants of its law, which carry_to_parameters() empties.
+    /// By the gradient of a field of changes of the rest positions, by cell; and by the first two
+    /// constants of its law and the lambda that patches take of it, in this order. Both are emptied
+    /// by carry_to_parameters().
     std::vector<Matrix3<double>>       by_gradients;
-    std::vector<std::array<double, 2>> by_constants;
+    std::vector<std::array<double, 3>> by_constants;
     std::vector<double>                by_young, by_poisson, by_density; ///< by cell
     double                             by_importance = 0.;
     Vector                             by_nodal_forces;

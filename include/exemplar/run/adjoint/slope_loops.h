@@ -10,9 +10,10 @@
 #include <deal.II/base/aligned_vector.h>
 
 #include <algorithm>
+#include <array>
 
-// The derivatives of a slope in bodies whose points have the energies of their laws alone, by the
-// loops over the cells.
+// The derivatives of a slope in bodies whose points have the energies of their laws alone, and the
+// pressures of patches, by the loops over the cells.
 
 namespace Exemplar
 {
@@ -51,6 +52,23 @@ namespace Exemplar
     std::size_t   slot;
   };
 
+  /// The numbers of PressureEntry.
+  using PointPressures = std::array<double, PressureEntry::size>;
+
+  /// What acts at the points of a slope: target(point), a MatrixAlong, and pressures(point),
+  /// PointPressures; either may be left out.
+  template <typename Target, typename Pressures>
+  struct SlopeDrives
+  {
+    bool      has_targets;
+    Target    target;
+    bool      has_pressures;
+    Pressures pressures;
+  };
+
+  template <typename Target, typename Pressures>
+  SlopeDrives(bool, Target, bool, Pressures) -> SlopeDrives<Target, Pressures>;
+
   /// The loops over the cells of a body that find the slope of its laws' energies along a direction.
   class SlopeLoops
   {
@@ -78,25 +96,40 @@ namespace Exemplar
       return traits_of(law).has_volumetric_energy ? CellLaw::corotational : law;
     }
 
-    /// Call take(point, FoundSlope) for all points in their order. Points have the targets
-    /// target(point), a MatrixAlong, or none.
-    template <typename Target, typename Take>
+    /// Call take(point, FoundSlope) for all points in their order, with these SlopeDrives.
+    template <typename Drives, typename Take>
     void
-    for_each_slope(const bool has_targets, const Target &target, const Take &take)
+    for_each_slope(const Drives &drives, const Take &take)
     {
-      for_each_chunk(has_targets, target, SlopeEntry::size, &CellKernels::slopes,
+      for_each_chunk(drives, SlopeEntry::size, &CellKernels::slopes,
                      [&](const unsigned int point, const double *found, const std::size_t slot)
                      { take(point, FoundSlope(found, slot)); });
     }
 
     /// Call take(point, slope) likewise, with the slope alone, without the guard of the stretch.
-    template <typename Target, typename Take>
+    template <typename Drives, typename Take>
     void
-    for_each_work(const Target &target, const Take &take)
+    for_each_work(const Drives &drives, const Take &take)
     {
-      for_each_chunk(true, target, 1, &CellKernels::works,
+      for_each_chunk(drives, 1, &CellKernels::works,
                      [&](const unsigned int point, const double *found, const std::size_t slot)
                      { take(point, found[slot]); });
+    }
+
+    /// Call take(point, trace) likewise, where trace(entry) is a TraceEntry.
+    template <typename Take>
+    void
+    for_each_trace(const Take &take)
+    {
+      const auto nothing = [](const unsigned int /*point*/) { return MatrixAlong(); };
+      const auto none    = [](const unsigned int /*point*/) { return PointPressures(); };
+      for_each_chunk(SlopeDrives{ false, nothing, false, none }, TraceEntry::size,
+                     &CellKernels::traces,
+                     [&](const unsigned int point, const double *found, const std::size_t slot)
+                     {
+                       take(point, [&](const std::size_t entry)
+                            { return found[batch_index(slot, TraceEntry::size, entry)]; });
+                     });
     }
 
   private:
@@ -105,16 +138,14 @@ namespace Exemplar
     using Loop
         = void (*CellKernels::*)(const CellTask &, const SlopeTask &, std::size_t, std::size_t);
 
-    template <typename Target, typename Take>
+    template <typename Drives, typename Take>
     void
-    for_each_chunk(const bool        has_targets,
-                   const Target     &target,
-                   const std::size_t size,
-                   const Loop        loop,
-                   const Take       &take)
+    for_each_chunk(const Drives &drives, const std::size_t size, const Loop loop, const Take &take)
     {
       const std::size_t n_points = task.cells.n_cells, n_batches = task.cells.n_batches();
-      targets.resize_fast(has_targets ? n_batches_at_once * batch_size * n_of_targets : 0);
+      targets.resize_fast(drives.has_targets ? n_batches_at_once * batch_size * n_of_targets : 0);
+      pressures.resize_fast(
+          drives.has_pressures ? n_batches_at_once * batch_size * PressureEntry::size : 0);
       found.resize_fast(n_batches_at_once * batch_size * size);
       for (std::size_t first = 0; first < n_batches; first += n_batches_at_once)
       {
@@ -123,8 +154,11 @@ namespace Exemplar
         for_each_part(n_parts, n, field.n_threads(),
                       [&](const std::size_t, const std::size_t from, const std::size_t to)
                       {
-                        if (has_targets)
-                          set_targets(begin, from * batch_size, to * batch_size, target);
+                        if (drives.has_targets)
+                          set_targets(begin, from * batch_size, to * batch_size, drives.target);
+                        if (drives.has_pressures)
+                          set_pressures(begin, from * batch_size, to * batch_size,
+                                        drives.pressures);
                         run(loop, size, first, from, to);
                       });
         for (std::size_t slot = 0; slot < n * batch_size && begin + slot < n_points; ++slot)
@@ -141,9 +175,7 @@ namespace Exemplar
     {
       for (std::size_t slot = begin; slot < end; ++slot)
       {
-        // the last batch is filled with copies of the last cell
-        const std::size_t              point = std::min(first + slot, task.cells.n_cells - 1);
-        const MatrixAlong              D     = target(static_cast<unsigned int>(point));
+        const MatrixAlong              D     = target(point_of(first + slot));
         const SymmetricEntries<double> value = pack(D.value), change = pack(D.change);
         for (std::size_t k = 0; k < n_symmetric; ++k)
         {
@@ -151,6 +183,28 @@ namespace Exemplar
           targets[batch_index(slot, n_of_targets, n_symmetric + k)] = change[k];
         }
       }
+    }
+
+    template <typename Pressures>
+    void
+    set_pressures(const std::size_t first,
+                  const std::size_t begin,
+                  const std::size_t end,
+                  const Pressures  &of_point)
+    {
+      for (std::size_t slot = begin; slot < end; ++slot)
+      {
+        const PointPressures found = of_point(point_of(first + slot));
+        for (std::size_t k = 0; k < PressureEntry::size; ++k)
+          pressures[batch_index(slot, PressureEntry::size, k)] = found[k];
+      }
+    }
+
+    /// The last batch is filled with copies of the last cell.
+    unsigned int
+    point_of(const std::size_t slot) const
+    {
+      return static_cast<unsigned int>(std::min(slot, task.cells.n_cells - 1));
     }
 
     /// For batches `from` to `to` - 1 of those from `first` on.
@@ -162,6 +216,8 @@ namespace Exemplar
         const std::size_t to)
     {
       SlopeTask slope{ changes.data(), nullptr, &found[from * batch_size * size] };
+      if (!pressures.empty())
+        slope.pressures = &pressures[from * batch_size * PressureEntry::size];
       if (!targets.empty())
         slope.targets = &targets[from * batch_size * n_of_targets];
       field.for_each_law(task,
@@ -179,7 +235,7 @@ namespace Exemplar
     const bool                    of_damping;
     CellTask                      task;
     dealii::AlignedVector<double> changes; ///< four numbers a node
-    dealii::AlignedVector<double> targets, found;
+    dealii::AlignedVector<double> targets, pressures, found;
   };
 } // namespace Exemplar
 

@@ -9,6 +9,8 @@
 #include <exemplar/run/adjoint/slope_loops.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
+#include <numeric>
+
 // The derivatives of the slope of a potential that is a sum over points and patches. Each term is
 // evaluated with numbers that carry its change along the direction and the derivatives of value and
 // change.
@@ -119,7 +121,9 @@ namespace Exemplar
   /// share(point) and share_of_patch(patch), wish(point), patch_scene(law), and
   /// square_of_bound(patch, point) for the guard (26). add_wish() and add_guard_bound() pass on
   /// derivatives by the wish and by p_0. Where is_of_law_alone(), points have the energy of their
-  /// law with the target(point), which is target_factor(cell) times the wish, and no more.
+  /// law with the target(point), which is target_factor(cell) times the wish, and no more but for
+  /// the dilatation of their patches and its guard; may_be_thin(point) tells whether the trace of
+  /// the target may be extended there.
   template <typename Part>
   class SlopeOfPoints
   {
@@ -135,11 +139,17 @@ namespace Exemplar
           part(part)
     {
       of_patches.resize(patches.size());
+      if (part.is_of_law_alone() && patches.size() > 0)
+        find_traces();
       for_each_part(n_parts, patches.size(), problem.parameters.solver.n_threads,
                     [this](const std::size_t, const std::size_t begin, const std::size_t end)
                     {
                       for (std::size_t patch = begin; patch < end; ++patch)
+                      {
+                        if (!traces.empty())
+                          select_plain_points(patch);
                         of_patches[patch] = potential_of_patch(patch);
+                      }
                     });
     }
 
@@ -148,16 +158,21 @@ namespace Exemplar
     slope() const
     {
       double sum = 0.;
+      Points rest;
       if (part.is_of_law_alone())
-      {
-        make_loops().for_each_work([this](const unsigned int point) { return part.target(point); },
+        make_loops().for_each_work(drives(),
                                    [&](const unsigned int point, const double work)
-                                   { sum += part.share(point) * work; });
-        return sum;
-      }
-      for_each_found<double>([this](const unsigned int point)
-                             { return slope_of(point, shape_at(point)); },
-                             [&](const unsigned int, const double of_point) { sum += of_point; });
+                                   {
+                                     if (is_plain(point))
+                                       sum += part.share(point) * work;
+                                     else
+                                       rest.push_back(point);
+                                   });
+      else
+        rest = all_points();
+      for_each_found<double>(
+          rest, [this](const unsigned int point) { return slope_of(point, shape_at(point)); },
+          [&](const unsigned int, const double of_point) { sum += of_point; });
       return sum;
     }
 
@@ -168,7 +183,7 @@ namespace Exemplar
       for (const OfPatch &potential : of_patches)
         sums.by_importance += potential.by_importance.by[0];
       const double by_guard_bound
-          = part.is_of_law_alone() ? add_by_loops(sums) : add_by_points(sums);
+          = add_by_points(part.is_of_law_alone() ? add_by_loops(sums) : all_points(), sums);
       if (by_guard_bound != 0.)
         part.add_guard_bound(by_guard_bound, sums);
     }
@@ -179,6 +194,15 @@ namespace Exemplar
     static constexpr std::size_t n_parts = 16; ///< of loops, whatever the threads
 
     using OfPatch = PatchPotential<Changing>;
+    using Points  = std::vector<unsigned int>;
+
+    /// What a patch needs of a point.
+    struct TraceAtPoint
+    {
+      Changing trace;
+      double   square;   ///< |F|^2
+      bool     is_plain; ///< whether the patch is pressures there, along the traces, and no more
+    };
 
     SlopeLoops
     make_loops() const
@@ -187,37 +211,123 @@ namespace Exemplar
                         Part::is_damping);
     }
 
-    /// Returns the derivative by p_0.
-    double
-    add_by_points(SlopeDerivatives &sums)
+    Points
+    all_points() const
     {
-      double by_guard_bound = 0.;
-      for_each_found<Contribution>([this](const unsigned int point) { return contribution(point); },
-                                   [&](const unsigned int point, const Contribution &of_point)
-                                   {
-                                     add(point, of_point, sums);
-                                     by_guard_bound
-                                         += of_point.by_constants[OfPoint::guard_bound - 1];
-                                   });
-      return by_guard_bound;
+      Points all(fe_space.n_points());
+      std::iota(all.begin(), all.end(), 0u);
+      return all;
     }
 
-    /// The same by the loops over the cells, but where the guard of Eq. (16) acts.
+    void
+    find_traces()
+    {
+      traces.resize(fe_space.n_points());
+      make_loops().for_each_trace(
+          [this](const unsigned int point, const auto &found)
+          {
+            traces[point]
+                = { Changing(found(TraceEntry::value), found(TraceEntry::change)),
+                    found(TraceEntry::square),
+                    !has_guard_at(point)
+                        || (found(TraceEntry::may_be_thin) == 0. && !part.may_be_thin(point)) };
+          });
+    }
+
+    /// Whether the trace is extended in thin cells and strongly stretched patches are guarded.
+    bool
+    has_guard_at(const unsigned int point) const
+    {
+      CellLaw law = laws[fe_space.cell_of(point)];
+      if (Part::is_damping)
+        law = SlopeLoops::damping(law);
+      return traits_of(law).has_guard_of_patches();
+    }
+
+    ModelTraits
+    law_of_patch(const unsigned int patch) const
+    {
+      return traits_of(laws[fe_space.cell_of(patches.points(patch).front())]);
+    }
+
+    /// In patches that may be strongly stretched or are left out no point is plain.
+    void
+    select_plain_points(const unsigned int patch)
+    {
+      double square = 0.;
+      for (const unsigned int point : patches.points(patch))
+        square += fe_space.volume(point) * traces[point].square;
+      const bool is_guarded = part.patch_scene(scene, law_of_patch(patch)).has_guard
+                              && square > min_stretched_square * patches.volume(patch);
+      if (part.share_of_patch(patch) != 0. && !is_guarded)
+        return;
+      for (const unsigned int point : patches.points(patch))
+        traces[point].is_plain = false;
+    }
+
+    bool
+    is_plain(const unsigned int point) const
+    {
+      return traces.empty() || traces[point].is_plain;
+    }
+
+    /// What drives the loops. What they find where points are not plain counts for nothing.
+    auto
+    drives() const
+    {
+      const auto target    = [this](const unsigned int point) { return part.target(point); };
+      const auto pressures = [this](const unsigned int point) { return pressures_at(point); };
+      return SlopeDrives{ part.has_targets(), target, !traces.empty(), pressures };
+    }
+
+    /// Per share of the point's own energy, by which all that a loop finds is multiplied.
+    PointPressures
+    pressures_at(const unsigned int point) const
+    {
+      if (!is_plain(point))
+        return {};
+      const PatchFactors &factors  = *factors_at(point);
+      const Changing     &of_trace = factors[PatchSum::trace], &of_wish = factors[PatchSum::wish];
+      PointPressures      pressures;
+      pressures[PressureEntry::value]            = of_trace.value;
+      pressures[PressureEntry::change]           = of_trace.by[0];
+      pressures[PressureEntry::of_target]        = of_wish.value;
+      pressures[PressureEntry::change_of_target] = of_wish.by[0];
+      for (double &pressure : pressures)
+        pressure /= part.share(point);
+      return pressures;
+    }
+
+    /// Returns the derivative by p_0.
     double
-    add_by_loops(SlopeDerivatives &sums)
+    add_by_points(const Points &points, SlopeDerivatives &sums)
     {
       double by_guard_bound = 0.;
-      make_loops().for_each_slope(
-          part.has_targets(), [this](const unsigned int point) { return part.target(point); },
-          [&](const unsigned int point, const FoundSlope &found)
+      for_each_found<Contribution>(
+          points, [this](const unsigned int point) { return contribution(point); },
+          [&](const unsigned int point, const Contribution &of_point)
           {
-            if (found[SlopeEntry::is_guarded] == 0.)
-              return add(point, found, sums);
-            const Contribution of_point = contribution(point);
             add(point, of_point, sums);
             by_guard_bound += of_point.by_constants[OfPoint::guard_bound - 1];
           });
       return by_guard_bound;
+    }
+
+    /// The same by the loops over the cells. Returns the points that are left: where the guard of
+    /// Eq. (16) acts, and where points are not plain.
+    Points
+    add_by_loops(SlopeDerivatives &sums)
+    {
+      Points rest;
+      make_loops().for_each_slope(drives(),
+                                  [&](const unsigned int point, const FoundSlope &found)
+                                  {
+                                    if (is_plain(point) && found[SlopeEntry::is_guarded] == 0.)
+                                      add(point, found, sums);
+                                    else
+                                      rest.push_back(point);
+                                  });
+      return rest;
     }
 
     void
@@ -247,16 +357,32 @@ namespace Exemplar
       sums.by_importance += share * found[SlopeEntry::by_importance];
       sums.add_by_volume(cell, share * found[SlopeEntry::value]);
       sums.add_by_shape_gradients(cell, by_gradients);
+      if (!traces.empty())
+        add_patch(point, sums);
     }
 
-    /// Evaluate find(point) at all points in parallel, some at a time, and take the results in the
+    /// What the factors of a point's patch add beside its pressures, through the patch's volume and
+    /// elasticity.
+    void
+    add_patch(const unsigned int point, SlopeDerivatives &sums) const
+    {
+      const PatchFactors &factors   = *factors_at(point);
+      const unsigned int  cell      = fe_space.cell_of(point);
+      const double        V         = fe_space.volume(point);
+      const double        by_lambda = V * factors[PatchSum::lambda].by[0];
+      sums.by_constants[cell][LawSlope<double>::n_constants] += by_lambda;
+      sums.add_by_volume(cell, V * factors[PatchSum::volume].by[0]
+                                   + by_lambda * problem.body.material.lambda_of_patches(cell));
+    }
+
+    /// Evaluate find(point) at these points in parallel, some at a time, and take the results in the
     /// points' order.
     template <typename Found, typename Find, typename Take>
     void
-    for_each_found(const Find &find, const Take &take) const
+    for_each_found(const Points &points, const Find &find, const Take &take) const
     {
       constexpr unsigned int n_at_once = 1024;
-      const unsigned int     n         = fe_space.n_points();
+      const unsigned int     n         = points.size();
       std::vector<Found>     found(std::min(n, n_at_once));
       for (unsigned int first = 0; first < n; first += n_at_once)
       {
@@ -265,10 +391,10 @@ namespace Exemplar
                       [&](const std::size_t, const std::size_t begin, const std::size_t end)
                       {
                         for (std::size_t i = begin; i < end; ++i)
-                          found[i] = find(first + i);
+                          found[i] = find(points[first + i]);
                       });
         for (unsigned int i = 0; i < n_found; ++i)
-          take(first + i, found[i]);
+          take(points[first + i], found[i]);
       }
     }
 
@@ -306,15 +432,41 @@ namespace Exemplar
     }
 
     PatchFactors
+    sums_at(const unsigned int patch, const unsigned int point) const
+    {
+      PatchFactors sums = patch_sums<Part::template Evaluation>(
+          place_of<Changing>(point, shape_at(point).get(), part.wish(point)));
+      sums[PatchSum::bound] = Changing(part.square_of_bound(patch, point));
+      return sums;
+    }
+
+    /// Without those of guards that do not act.
+    PatchFactors
+    plain_sums_at(const unsigned int point) const
+    {
+      Changing wish(0.);
+      if (part.has_targets())
+      {
+        const MatrixAlong D = part.target(point);
+        wish                = Changing(trace(D.value), trace(D.change));
+      }
+      PatchFactors sums = dilatation_sums(
+          Changing(problem.body.material.lambda_of_patches(fe_space.cell_of(point))),
+          traces[point].trace, wish);
+      sums[PatchSum::square] = Changing(traces[point].square);
+      return sums;
+    }
+
+    PatchFactors
     sums_of(const unsigned int patch) const
     {
       PatchFactors sums;
       for (const unsigned int point : patches.points(patch))
       {
-        PatchFactors of_point = patch_sums<Part::template Evaluation>(
-            place_of<Changing>(point, shape_at(point).get(), part.wish(point)));
-        of_point[PatchSum::bound] = Changing(part.square_of_bound(patch, point));
-        const Changing volume(fe_space.volume(point));
+        const PatchFactors of_point = !traces.empty() && traces[point].is_plain
+                                          ? plain_sums_at(point)
+                                          : sums_at(patch, point);
+        const Changing     volume(fe_space.volume(point));
         for (std::size_t k = 0; k < PatchFactors::size; ++k)
           sums.numbers[k] += volume * of_point.numbers[k];
       }
@@ -324,9 +476,8 @@ namespace Exemplar
     OfPatch
     potential_of_patch(const unsigned int patch) const
     {
-      const auto     law   = traits_of(laws[fe_space.cell_of(patches.points(patch).front())]);
-      OfPatch        found = patch_potential(part.patch_scene(scene, law), sums_of(patch),
-                                             Changing(scene.examples.importance));
+      OfPatch found = patch_potential(part.patch_scene(scene, law_of_patch(patch)), sums_of(patch),
+                                      Changing(scene.examples.importance));
       const Changing share(part.share_of_patch(patch));
       for (Changing &factor : found.by_sums.numbers)
         factor *= share;
@@ -406,14 +557,15 @@ namespace Exemplar
       sums.add_by_shape_gradients(cell, by_gradients);
     }
 
-    Problem             &problem;
-    const Vector        &along;
-    const FESpace       &fe_space;
-    const Patches       &patches;
-    const LawsOfCells   &laws;
-    const PointScene     scene;
-    Part                &part;
-    std::vector<OfPatch> of_patches; ///< potential of each patch
+    Problem                  &problem;
+    const Vector             &along;
+    const FESpace            &fe_space;
+    const Patches            &patches;
+    const LawsOfCells        &laws;
+    const PointScene          scene;
+    Part                     &part;
+    std::vector<TraceAtPoint> traces; ///< of each point, if the loops find what is plain in patches
+    std::vector<OfPatch>      of_patches; ///< potential of each patch
   };
 } // namespace Exemplar
 
