@@ -22,9 +22,10 @@ SCENES = {"cat_mid60": "cat", "bar100k": "bar"}
 STEPS = ["cat_grav", "cat_mid60", "cat_mid60_examples", "horse_mid60", "bar100k"]
 N_RUNS = 3
 # An evaluation of a corotational cell without examples, counted in the sources: F 54, the rotation some 250, strain, stress and forces
-# 180, the mean of the patch 20; it reads nodes, gradients, moduli, the rotation before, and writes the rotation and a pressure.
+# 180, the mean of the patch 20. It reads the nodes, nine numbers of gradients, the volume, two moduli, the rotation before and a pressure, and
+# writes the rotation (CellArrays).
 OPERATIONS_OF_CELL = 500
-BYTES_OF_CELL = 4 * 4 + 9 * 8 + 3 * 8 + 2 * 4 * 8 + 8 + 12 * 8
+BYTES_OF_CELL = 4 * 4 + 8 * (9 + 1 + 2 + 2 * 9 + 1)
 
 
 def run(program, *arguments):

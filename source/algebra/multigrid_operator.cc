@@ -190,8 +190,7 @@ namespace Exemplar
   {
     if (rows.get_numbers().first_nodes().back() == 0)
       return;
-    take_matrix(positions);
-    make_cycle();
+    make_cycle(take_matrix(positions));
   }
 
   void
@@ -203,19 +202,20 @@ namespace Exemplar
     is_of_earlier = true;
   }
 
-  void
+  OuterProducts
   MultigridOperator::take_matrix(const Vector &positions)
   {
     const RowNumbers  &numbers = rows.get_numbers();
     const TrilinosLock lock; // calls MPI
-    places       = places_of_nodes(positions);
-    product_rows = OuterProductRows<double>(by_rows(products, free_dofs, numbers),
-                                            numbers.first_nodes(), free_dofs.exchange());
+    OuterProducts      of_rows = by_rows(products, free_dofs, numbers);
+    places                     = places_of_nodes(positions);
+    product_rows = OuterProductRows<double>(of_rows, numbers.first_nodes(), free_dofs.exchange());
     rows.fill(lower_values, diagonal_of(product_rows, numbers.n_rows()));
+    return of_rows;
   }
 
   void
-  MultigridOperator::make_cycle()
+  MultigridOperator::make_cycle(const OuterProducts &of_rows)
   {
     const RowNumbers &numbers = rows.get_numbers();
     // nothing takes as much memory as a hierarchy: give back what has been freed before
@@ -224,7 +224,7 @@ namespace Exemplar
     const TrilinosLock          lock; // calls MPI
     std::vector<MultigridLevel> levels
         = make_hierarchy(rows, rigid_modes(places, numbers.row_of()));
-    add_products(by_rows(products, free_dofs, numbers), levels, free_dofs.exchange());
+    add_products(of_rows, levels, free_dofs.exchange());
     cycle         = std::make_shared<MultigridCycle>(std::move(levels), free_dofs.exchange());
     is_of_earlier = false;
     n_iterations  = 0;
@@ -334,7 +334,7 @@ namespace Exemplar
       const unsigned int allowed = n_iterations + hierarchy_in_iterations;
       if (iterate(right_side, norm, allowed, solution) <= allowed)
         return;
-      make_cycle();
+      make_cycle(by_rows(products, free_dofs, rows.get_numbers()));
     }
     const unsigned int needed = iterate(right_side, norm, max_iterations, solution);
     if (needed > max_iterations)

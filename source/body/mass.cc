@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/padded_nodes.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/body/mass.h>
 
@@ -107,9 +108,7 @@ namespace Exemplar
     const std::size_t n = field.size() / 3;
     Padded            x(4 * n), product;
     product.resize_fast(4 * n);
-    for (std::size_t node = 0; node < n; ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        x[4 * node + c] = field[3 * node + c];
+    pad_nodes(field, x);
     multiply(x, product);
     OwnSums<Vector> sums(Vector(field.size()));
     for (std::size_t node = 0; node < n; ++node)

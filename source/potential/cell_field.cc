@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/padded_nodes.h>
 #include <exemplar/potential/cell_field.h>
 
 namespace Exemplar
@@ -103,9 +104,7 @@ namespace Exemplar
     if (rotations == RotationUse::keep)
       refresh_rotations();
     rotations_are_forgotten = rotations == RotationUse::find_and_forget;
-    for (unsigned int node = 0; node < n_nodes(); ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        node_positions[4 * node + c] = positions[3 * node + c];
+    pad_nodes(positions, node_positions);
     CellTask task;
     task.cells        = batches.arrays();
     task.positions    = node_positions.data();

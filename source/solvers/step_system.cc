@@ -22,8 +22,7 @@ namespace Exemplar
                         const double               convexity)
   {
     assemble(positions, weights, convexity, PotentialTangent::Terms::all);
-    StepClock::Scope scope(clock, Phase::factorize);
-    system->factorize(positions);
+    factorize_by(&BorderedSystem::factorize, positions);
   }
 
   void
@@ -32,18 +31,7 @@ namespace Exemplar
                              const double               convexity)
   {
     assemble(positions, weights, convexity, PotentialTangent::Terms::all);
-    StepClock::Scope scope(clock, Phase::factorize);
-    system->factorize_near(positions);
-  }
-
-  void
-  StepSystem::forget_earlier(const Vector &positions)
-  {
-    if (!system->leans_on_earlier())
-      return;
-    StepClock::Scope scope(clock, Phase::factorize);
-    system->factorize(positions);
-    system->prepare();
+    factorize_by(&BorderedSystem::factorize_near, positions);
   }
 
   void
@@ -52,16 +40,30 @@ namespace Exemplar
                                 const double               convexity)
   {
     assemble(positions, weights, convexity, PotentialTangent::Terms::all);
-    StepClock::Scope scope(clock, Phase::factorize);
-    system->factorize_roughly(positions);
+    factorize_by(&BorderedSystem::factorize_roughly, positions);
   }
 
   void
   StepSystem::factorize_metric(const Vector &positions, const std::vector<double> &weights)
   {
     assemble(positions, weights, 1., PotentialTangent::Terms::without_gaps);
+    factorize_by(&BorderedSystem::factorize_roughly, positions);
+  }
+
+  void
+  StepSystem::factorize_by(void (BorderedSystem::*how)(const Vector &), const Vector &positions)
+  {
     StepClock::Scope scope(clock, Phase::factorize);
-    system->factorize_roughly(positions);
+    (system.get()->*how)(positions);
+  }
+
+  void
+  StepSystem::forget_earlier(const Vector &positions)
+  {
+    if (!system->leans_on_earlier())
+      return;
+    factorize_by(&BorderedSystem::factorize, positions);
+    system->prepare();
   }
 
   bool

@@ -22,21 +22,11 @@ namespace Exemplar
     constexpr int    n_rounds           = 9;
     constexpr double seconds_of_a_round = 0.03; ///< for each of what is measured
 
-    /// Seconds of one repetition of `work`, of as many as fill a part of a round.
     template <typename Work>
     double
-    seconds_of(const Work &work)
+    seconds_in_round(const Work &work)
     {
-      int          n       = 0;
-      double       seconds = 0.;
-      const double begin   = seconds_on(CLOCK_THREAD_CPUTIME_ID);
-      do
-      {
-        work();
-        ++n;
-        seconds = seconds_on(CLOCK_THREAD_CPUTIME_ID) - begin;
-      } while (seconds < seconds_of_a_round);
-      return seconds / n;
+      return seconds_of(work, seconds_of_a_round);
     }
 
     /// A product of matrices in single precision.
@@ -89,22 +79,22 @@ namespace Exemplar
         std::vector<double>       column(structure->n()), seven(7 * structure->n());
         for (int round = 0; round < n_rounds; ++round)
         {
-          of_factor.push_back(seconds_of([&] { is_definite = factor.factorize(values); }));
-          of_solve.push_back(seconds_of(
+          of_factor.push_back(seconds_in_round([&] { is_definite = factor.factorize(values); }));
+          of_solve.push_back(seconds_in_round(
               [&]
               {
                 std::fill(column.begin(), column.end(), 1.);
                 factor.solve(column);
               }));
           of_reading.push_back(
-              seconds_of([&] { read_sum += read_all(like_factor) + read_all(like_factor); }));
-          of_seven.push_back(seconds_of(
+              seconds_in_round([&] { read_sum += read_all(like_factor) + read_all(like_factor); }));
+          of_seven.push_back(seconds_in_round(
               [&]
               {
                 std::fill(seven.begin(), seven.end(), 1.);
                 factor.solve(seven);
               }));
-          of_product.push_back(seconds_of([&] { product.multiply(); }));
+          of_product.push_back(seconds_in_round([&] { product.multiply(); }));
         }
         const double gflops      = 1e-9 * structure->n_operations / median(of_factor),
                      gflops_best = 1e-9 * Product::n_operations / median(of_product);

@@ -24,18 +24,7 @@ namespace Exemplar
     {
       double least = std::numeric_limits<double>::infinity();
       for (int round = 0; round < n_rounds; ++round)
-      {
-        int          n       = 0;
-        double       seconds = 0.;
-        const double begin   = seconds_on(CLOCK_THREAD_CPUTIME_ID);
-        do
-        {
-          work();
-          ++n;
-          seconds = seconds_on(CLOCK_THREAD_CPUTIME_ID) - begin;
-        } while (seconds < seconds_of_a_round);
-        least = std::min(least, seconds / n);
-      }
+        least = std::min(least, seconds_of(work, seconds_of_a_round));
       return least;
     }
 

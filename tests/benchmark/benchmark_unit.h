@@ -49,6 +49,23 @@ namespace Exemplar
   Duration
   median(const std::vector<Duration> &durations);
 
+  /// Seconds of this thread's processor time of one repetition of `work`, of as many as fill so many seconds.
+  template <typename Work>
+  double
+  seconds_of(const Work &work, const double least_seconds)
+  {
+    int          n       = 0;
+    double       seconds = 0.;
+    const double begin   = seconds_on(CLOCK_THREAD_CPUTIME_ID);
+    do
+    {
+      work();
+      ++n;
+      seconds = seconds_on(CLOCK_THREAD_CPUTIME_ID) - begin;
+    } while (seconds < least_seconds);
+    return seconds / n;
+  }
+
   /// One factorisation and one solve of a problem's matrix by CHOLMOD.
   class Unit
   {

@@ -62,13 +62,14 @@ namespace Exemplar
     std::vector<double>
     places_of_nodes(const Vector &positions) const;
 
-    /// Take the values and outer products as the matrix that solve() multiplies by.
-    void
+    /// Take the values and outer products as the matrix that solve() multiplies by. Returns its outer products by block
+    /// rows.
+    OuterProducts
     take_matrix(const Vector &positions);
 
-    /// Make the hierarchy of the present matrix.
+    /// Make the hierarchy of the present matrix, whose outer products by block rows are these.
     void
-    make_cycle();
+    make_cycle(const OuterProducts &of_rows);
 
     /// image = A vector, by own rows.
     void

@@ -229,6 +229,30 @@ namespace Exemplar
     return chained(x, beyond_logarithm(x.value), x.value / (Real(1.) + x.value));
   }
 
+  /// The matrix of part(number) of each entry.
+  template <typename Real, typename Number, typename Part>
+  Matrix3<Real>
+  parts_of(const Matrix3<Number> &A, const Part &part)
+  {
+    Matrix3<Real> result;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        result[i][j] = part(A[i][j]);
+    return result;
+  }
+
+  /// A matrix that changes with the first parameter.
+  template <typename Number, typename Real>
+  Matrix3<Number>
+  changing(const Matrix3<Real> &value, const Matrix3<Real> &change)
+  {
+    Matrix3<Number> result;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        result[i][j] = Number(value[i][j], change[i][j]);
+    return result;
+  }
+
   /// factor A of a factor without derivatives.
   template <std::size_t n, typename Real>
   Matrix3<Dual<n, Real>>

@@ -25,29 +25,6 @@ namespace Exemplar::Laws
         = by_importance + (Cell::traits.has_volumetric_energy ? 1 : 0);
   };
 
-  template <typename Along, typename Number>
-  inline Matrix3<Along>
-  along(const Matrix3<Number> &value, const Matrix3<Number> &change)
-  {
-    Matrix3<Along> A;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        A[i][j] = Along(value[i][j], change[i][j]);
-    return A;
-  }
-
-  /// The matrix of part(number) of each entry.
-  template <typename Number, typename Along, typename Part>
-  inline Matrix3<Number>
-  parts(const Matrix3<Along> &A, const Part &part)
-  {
-    Matrix3<Number> result;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        result[i][j] = part(A[i][j]);
-    return result;
-  }
-
   template <typename Number>
   inline void
   add_pressure(const Number &pressure, const Number &change, ChangingMatrix<Number> &to)
@@ -85,9 +62,9 @@ namespace Exemplar::Laws
             number.by[Of::by_constants + k] = Number(1.);
           return number;
         });
-    const Matrix3<Along> D = along<Along>(in.target, change.target);
+    const Matrix3<Along> D = changing<Along>(in.target, change.target);
     Cell                 cell(constants, identity_matrix<Along>(),
-                              along<Along>(shape.get().value, shape.get().change),
+                              changing<Along>(shape.get().value, shape.get().change),
                               examples_along<Along>(in.examples, Of::by_importance));
     out.is_guarded = cell.is_guarded();
     cell.set_target(D);
@@ -98,8 +75,9 @@ namespace Exemplar::Laws
       Q = times(-1., cell.weight_stress(D));
     const auto slope_of = [&](const auto &part)
     {
-      const Number of_shape = contract(parts<Number>(T, part), shape.get().change);
-      return in.has_target ? of_shape + contract(parts<Number>(Q, part), change.target) : of_shape;
+      const Number of_shape = contract(parts_of<Number>(T, part), shape.get().change);
+      return in.has_target ? of_shape + contract(parts_of<Number>(Q, part), change.target)
+                           : of_shape;
     };
     const auto value   = [](const Along &number) { return number.value; };
     const auto changed = [](const Along &number) { return number.by[0]; };
@@ -114,8 +92,8 @@ namespace Exemplar::Laws
     if constexpr (Of::by_importance < Along::n_derivatives)
       out.by_importance
           = slope_of([](const Along &number) { return number.by[Of::by_importance]; });
-    ChangingMatrix<Number> of_shape{ parts<Number>(T, value), parts<Number>(T, changed) },
-        of_target{ parts<Number>(Q, value), parts<Number>(Q, changed) };
+    ChangingMatrix<Number> of_shape{ parts_of<Number>(T, value), parts_of<Number>(T, changed) },
+        of_target{ parts_of<Number>(Q, value), parts_of<Number>(Q, changed) };
     if constexpr (Cell::traits.trace_gradient_is_R)
       if (in.has_pressure)
       {

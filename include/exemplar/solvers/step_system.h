@@ -137,6 +137,9 @@ namespace Exemplar
     memory_of_weights() const;
 
   private:
+    void
+    factorize_by(void (BorderedSystem::*how)(const Vector &), const Vector &positions);
+
     /// Have a system for the pattern as it is.
     void
     follow_pattern();

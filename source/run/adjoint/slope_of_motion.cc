@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/padded_nodes.h>
 #include <exemplar/run/adjoint/example_strains.h>
 #include <exemplar/run/adjoint/slope_of_motion.h>
 #include <exemplar/run/adjoint/slope_of_points.h>
@@ -203,9 +204,7 @@ namespace Exemplar
       {
         CellField                    &field = problem.cells.get_field();
         dealii::AlignedVector<double> places(4 * field.n_nodes());
-        for (unsigned int node = 0; node < field.n_nodes(); ++node)
-          for (unsigned int c = 0; c < 3; ++c)
-            places[4 * node + c] = (*past.positions)[3 * node + c];
+        pad_nodes(*past.positions, places);
         const CellTask task = field.task_elsewhere(places.data());
         for_each_part(n_parts, task.cells.n_batches(), field.n_threads(),
                       [&](const std::size_t, const std::size_t begin, const std::size_t end)

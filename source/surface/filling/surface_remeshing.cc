@@ -95,6 +95,23 @@ namespace Exemplar
           { norm(minus(x[a], x[b])), norm(minus(x[b], x[c])), norm(minus(x[c], x[a])) });
     }
 
+    /// Mark the triangles of `surface` that are nearer than `distance` to those of `places`. Returns whether `places` has
+    /// any.
+    bool
+    mark_near(const TriangleSurface &places,
+              const TriangleSurface &surface,
+              const double           distance,
+              std::vector<bool>     &marked)
+    {
+      if (places.triangles.empty())
+        return false;
+      const NearestTriangle nearest(places);
+      for (unsigned int t = 0; t < surface.triangles.size(); ++t)
+        if (!marked[t] && nearest(middle_of(surface, t)).first < distance)
+          marked[t] = true;
+      return true;
+    }
+
     /// Mark the triangles of `surface` that are nearer than `distance` to those of `remeshed` that
     /// intersect. Returns whether there are such.
     bool
@@ -107,13 +124,7 @@ namespace Exemplar
       for (const auto &[first, second] : self_intersections(remeshed))
         for (const unsigned int triangle : { first, second })
           intersecting.triangles.push_back(remeshed.triangles[triangle]);
-      if (intersecting.triangles.empty())
-        return false;
-      const NearestTriangle nearest(intersecting);
-      for (unsigned int t = 0; t < surface.triangles.size(); ++t)
-        if (!marked[t] && nearest(middle_of(surface, t)).first < distance)
-          marked[t] = true;
-      return true;
+      return mark_near(intersecting, surface, distance, marked);
     }
 
     std::string
@@ -125,7 +136,6 @@ namespace Exemplar
       const auto &[x, y, z] = middle_of(surface, crossing.front().first);
       return " near " + short_text(x) + ", " + short_text(y) + ", " + short_text(z);
     }
-
   } // namespace
 
   SheetRemeshing::SheetRemeshing(const TriangleSurface      &surface,
@@ -188,13 +198,7 @@ namespace Exemplar
         places.vertices.push_back(gaps[i].place);
         places.triangles.push_back({ { n, n, n } });
       }
-    if (places.triangles.empty())
-      return false;
-    const NearestTriangle nearest(places);
-    for (unsigned int t = 0; t < surface.triangles.size(); ++t)
-      if (!marked[t] && nearest(middle_of(surface, t)).first < distance)
-        marked[t] = true;
-    return true;
+    return mark_near(places, surface, distance, marked);
   }
 
   /// Remeshes the held triangles that are much finer than the cells, so that there are no more of

@@ -85,7 +85,8 @@ namespace Exemplar::Testing
       using Number            = OfPoint::Guarded;
       const MatrixAlong shape = PointShape(true, F.value, F.change).get();
       return slope_at<ElasticPoint>(
-          PointPlace<Number>(at, law, 0, changing<Number>(shape), changing<Number>(wish), 1.),
+          PointPlace<Number>(at, law, 0, changing<Number>(shape.value, shape.change),
+                             changing<Number>(wish.value, wish.change), 1.),
           shape.change, wish.change, &factors);
     }
 

@@ -2,6 +2,7 @@
 #ifndef exemplar_slope_loops_h
 #define exemplar_slope_loops_h
 
+#include <exemplar/algebra/padded_nodes.h>
 #include <exemplar/base/loop_parts.h>
 #include <exemplar/kernels/point_shape.h>
 #include <exemplar/kernels/symmetric.h>
@@ -84,9 +85,7 @@ namespace Exemplar
     {
       task.damping    = {};
       task.dilatation = {};
-      for (unsigned int node = 0; node < field.n_nodes(); ++node)
-        for (unsigned int c = 0; c < 3; ++c)
-          changes[4 * node + c] = along[3 * node + c];
+      pad_nodes(along, changes);
     }
 
     /// The law whose energy is that of damping: a background's own energy has none.
@@ -134,6 +133,7 @@ namespace Exemplar
 
   private:
     static constexpr std::size_t n_batches_at_once = 64, n_parts = 16; ///< whatever the threads
+    static constexpr std::size_t n_of_targets = 2 * n_symmetric;
 
     using Loop
         = void (*CellKernels::*)(const CellTask &, const SlopeTask &, std::size_t, std::size_t);
@@ -147,6 +147,8 @@ namespace Exemplar
       pressures.resize_fast(
           drives.has_pressures ? n_batches_at_once * batch_size * PressureEntry::size : 0);
       found.resize_fast(n_batches_at_once * batch_size * size);
+      const auto target_numbers
+          = [&](const unsigned int point) { return packed(drives.target(point)); };
       for (std::size_t first = 0; first < n_batches; first += n_batches_at_once)
       {
         const std::size_t n     = std::min(n_batches_at_once, n_batches - first);
@@ -155,10 +157,10 @@ namespace Exemplar
                       [&](const std::size_t, const std::size_t from, const std::size_t to)
                       {
                         if (drives.has_targets)
-                          set_targets(begin, from * batch_size, to * batch_size, drives.target);
+                          set(begin, from * batch_size, to * batch_size, target_numbers, targets);
                         if (drives.has_pressures)
-                          set_pressures(begin, from * batch_size, to * batch_size,
-                                        drives.pressures);
+                          set(begin, from * batch_size, to * batch_size, drives.pressures,
+                              pressures);
                         run(loop, size, first, from, to);
                       });
         for (std::size_t slot = 0; slot < n * batch_size && begin + slot < n_points; ++slot)
@@ -166,38 +168,36 @@ namespace Exemplar
       }
     }
 
-    template <typename Target>
+    /// Set the entries of the slots `begin` to `end` - 1, of which slot 0 is slot `first` of the body, to
+    /// numbers_of(point).
+    template <typename NumbersOf>
     void
-    set_targets(const std::size_t first,
-                const std::size_t begin,
-                const std::size_t end,
-                const Target     &target)
+    set(const std::size_t              first,
+        const std::size_t              begin,
+        const std::size_t              end,
+        const NumbersOf               &numbers_of,
+        dealii::AlignedVector<double> &entries)
     {
       for (std::size_t slot = begin; slot < end; ++slot)
       {
-        const MatrixAlong              D     = target(point_of(first + slot));
-        const SymmetricEntries<double> value = pack(D.value), change = pack(D.change);
-        for (std::size_t k = 0; k < n_symmetric; ++k)
-        {
-          targets[batch_index(slot, n_of_targets, k)]               = value[k];
-          targets[batch_index(slot, n_of_targets, n_symmetric + k)] = change[k];
-        }
+        const auto numbers = numbers_of(point_of(first + slot));
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+          entries[batch_index(slot, numbers.size(), k)] = numbers[k];
       }
     }
 
-    template <typename Pressures>
-    void
-    set_pressures(const std::size_t first,
-                  const std::size_t begin,
-                  const std::size_t end,
-                  const Pressures  &of_point)
+    /// The entries of a target and its change.
+    static std::array<double, n_of_targets>
+    packed(const MatrixAlong &D)
     {
-      for (std::size_t slot = begin; slot < end; ++slot)
+      const SymmetricEntries<double>   value = pack(D.value), change = pack(D.change);
+      std::array<double, n_of_targets> numbers;
+      for (std::size_t k = 0; k < n_symmetric; ++k)
       {
-        const PointPressures found = of_point(point_of(first + slot));
-        for (std::size_t k = 0; k < PressureEntry::size; ++k)
-          pressures[batch_index(slot, PressureEntry::size, k)] = found[k];
+        numbers[k]               = value[k];
+        numbers[n_symmetric + k] = change[k];
       }
+      return numbers;
     }
 
     /// The last batch is filled with copies of the last cell.
@@ -228,8 +228,6 @@ namespace Exemplar
                            (field.loops().*loop)(of_law, slope, first + from, first + to);
                          });
     }
-
-    static constexpr std::size_t n_of_targets = 2 * n_symmetric;
 
     CellField                    &field;
     const bool                    of_damping;

@@ -3,6 +3,7 @@
 #define exemplar_slope_of_points_h
 
 #include <exemplar/base/loop_parts.h>
+#include <exemplar/kernels/dual.h>
 #include <exemplar/kernels/point_shape.h>
 #include <exemplar/run/adjoint/example_strains.h>
 #include <exemplar/run/adjoint/point_stress.h>
@@ -17,37 +18,13 @@
 
 namespace Exemplar
 {
-  /// The matrix of part(number) of each entry.
-  template <typename Number, typename Part>
-  Matrix3<double>
-  parts_of(const Matrix3<Number> &A, const Part &part)
-  {
-    Matrix3<double> result;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        result[i][j] = part(A[i][j]);
-    return result;
-  }
-
   /// A matrix of numbers as values with their changes along the direction.
   template <typename Number>
   MatrixAlong
   values_along(const Matrix3<Number> &A)
   {
-    return { parts_of(A, [](const Number &number) { return number.value; }),
-             parts_of(A, [](const Number &number) { return number.by[0]; }) };
-  }
-
-  /// A matrix that changes along the direction.
-  template <typename Number>
-  Matrix3<Number>
-  changing(const MatrixAlong &A)
-  {
-    Matrix3<Number> result;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        result[i][j] = Number(A.value[i][j], A.change[i][j]);
-    return result;
+    return { parts_of<double>(A, [](const Number &number) { return number.value; }),
+             parts_of<double>(A, [](const Number &number) { return number.by[0]; }) };
   }
 
   /// The derivatives of a slope by what belongs to a point, per volume.
@@ -85,8 +62,8 @@ namespace Exemplar
              const Matrix3<double>     &of_wish,
              const Part                &part)
   {
-    return contract(parts_of(stress.by_shape, part), of_shape)
-           + contract(parts_of(stress.by_wish, part), of_wish);
+    return contract(parts_of<double>(stress.by_shape, part), of_shape)
+           + contract(parts_of<double>(stress.by_wish, part), of_wish);
   }
 
   /// The derivatives of a slope through an Evaluation whose shape and wish change like this.
@@ -426,9 +403,12 @@ namespace Exemplar
     place_of(const unsigned int point, const MatrixAlong &shape, const MatrixAlong &wish) const
     {
       const unsigned int cell = fe_space.cell_of(point);
-      return {
-        scene, laws[cell], cell, changing<Number>(shape), changing<Number>(wish), part.share(point)
-      };
+      return { scene,
+               laws[cell],
+               cell,
+               changing<Number>(shape.value, shape.change),
+               changing<Number>(wish.value, wish.change),
+               part.share(point) };
     }
 
     PatchFactors
