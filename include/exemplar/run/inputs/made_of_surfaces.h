@@ -3,7 +3,7 @@
 #define exemplar_made_of_surfaces_h
 
 #include <exemplar/surface/filling/surface_meshing.h>
-#include <exemplar/surface/posing/pose_quality.h>
+#include <exemplar/surface/skin/pose_quality.h>
 
 namespace Exemplar
 {

@@ -4,7 +4,7 @@
 
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/surface/posing/fold_solver.h>
-#include <exemplar/surface/posing/pose_quality.h>
+#include <exemplar/surface/skin/pose_quality.h>
 #include <exemplar/surface/skin/surface_attachment.h>
 #include <exemplar/surface/skin/surface_skin.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/number_text.h>
-#include <exemplar/surface/posing/pose_quality.h>
+#include <exemplar/surface/skin/pose_quality.h>
 
 #include <fmt/core.h>
 
