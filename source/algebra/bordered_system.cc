@@ -115,6 +115,15 @@ namespace Exemplar
         }
       }
 
+      bool
+      estimate(BorderedVector &vector, const WeightLimits &limits) override
+      {
+        if (form.coupled.empty())
+          return A->estimate(vector.positions);
+        solve(vector, limits); // weights need differences of solutions
+        return false;
+      }
+
       void
       apply_inverse(std::vector<double> &columns) override
       {

@@ -233,6 +233,19 @@ namespace Exemplar
   void
   MultigridOperator::solve(std::vector<double> &columns)
   {
+    solve_to(tolerance, columns);
+  }
+
+  bool
+  MultigridOperator::estimate(std::vector<double> &columns)
+  {
+    solve_to(0.1, columns);
+    return true;
+  }
+
+  void
+  MultigridOperator::solve_to(const double accuracy, std::vector<double> &columns)
+  {
     const RowNumbers       &numbers = rows.get_numbers();
     const std::vector<int> &row_of  = numbers.row_of();
     const std::size_t       n       = row_of.size();
@@ -245,7 +258,7 @@ namespace Exemplar
       double *entries = columns.data() + column * n;
       for (std::size_t i = 0; i < n; ++i)
         right_side[row_of[i]] = entries[i];
-      solve(right_side, solution);
+      solve_to(accuracy, right_side, solution);
       for (std::size_t i = 0; i < n; ++i)
         entries[i] = solution[row_of[i]];
     }
@@ -298,14 +311,14 @@ namespace Exemplar
 
   unsigned int
   MultigridOperator::iterate(const SharedVector &right_side,
-                             const double        norm,
+                             const double        residual,
                              const unsigned int  limit,
                              SharedVector       &solution) const
   {
     const auto            A        = [this](const Vector &x, Vector &y) { multiply(x, y); };
     const auto            inverse  = [this](const Vector &x, Vector &y) { precondition(x, y); };
     const bool            has_rows = rows.get_numbers().n_rows() > 0;
-    dealii::SolverControl control(limit, tolerance * norm);
+    dealii::SolverControl control(limit, residual);
     dealii::PrimitiveVectorMemory<SharedVector> memory;
     try
     {
@@ -321,7 +334,9 @@ namespace Exemplar
   }
 
   void
-  MultigridOperator::solve(const SharedVector &right_side, SharedVector &solution)
+  MultigridOperator::solve_to(const double        accuracy,
+                              const SharedVector &right_side,
+                              SharedVector       &solution)
   {
     solution          = 0.;
     const double norm = std::sqrt(right_side.dot(right_side));
@@ -332,11 +347,11 @@ namespace Exemplar
     if (is_of_earlier)
     {
       const unsigned int allowed = n_iterations + hierarchy_in_iterations;
-      if (iterate(right_side, norm, allowed, solution) <= allowed)
+      if (iterate(right_side, accuracy * norm, allowed, solution) <= allowed)
         return;
       make_cycle(by_rows(products, free_dofs, rows.get_numbers()));
     }
-    const unsigned int needed = iterate(right_side, norm, max_iterations, solution);
+    const unsigned int needed = iterate(right_side, accuracy * norm, max_iterations, solution);
     if (needed > max_iterations)
       throw SolverFailure(fmt::format("The conjugate gradients do not converge in {} iterations. "
                                       "Flat cells and a Poisson's ratio near 0.5 make them slow: "

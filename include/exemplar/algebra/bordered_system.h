@@ -116,6 +116,14 @@ namespace Exemplar
     solve(BorderedVector &right_side, const WeightLimits &limits)
         = 0;
 
+    /// solve() for the positions alone, as SpdOperator::estimate(). Returns whether it is rough.
+    virtual bool
+    estimate(BorderedVector &right_side, const WeightLimits &limits)
+    {
+      solve(right_side, limits);
+      return false;
+    }
+
     /// Overwrite columns C by A^-1 C; throws SolverFailure if A has no factor of its own.
     virtual void
     apply_inverse(std::vector<double> &columns)

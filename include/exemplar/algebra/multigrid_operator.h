@@ -54,6 +54,9 @@ namespace Exemplar
     void
     solve(std::vector<double> &columns) override;
 
+    bool
+    estimate(std::vector<double> &columns) override;
+
     std::unique_ptr<KeptInverse>
     keep() const override;
 
@@ -79,14 +82,18 @@ namespace Exemplar
     void
     precondition(const Vector &vector, Vector &image) const;
 
+    /// Overwrite columns by solutions to residuals of `accuracy` times the columns.
     void
-    solve(const SharedVector &right_side, SharedVector &solution);
+    solve_to(double accuracy, std::vector<double> &columns);
 
-    /// Go on from `solution` for at most `limit` iterations; returns their number, `limit` + 1 if these do not
-    /// suffice.
+    void
+    solve_to(double accuracy, const SharedVector &right_side, SharedVector &solution);
+
+    /// Go on from `solution` to a residual of this norm for at most `limit` iterations; returns their number,
+    /// `limit` + 1 if these do not suffice.
     unsigned int
     iterate(const SharedVector &right_side,
-            double              norm,
+            double              residual,
             unsigned int        limit,
             SharedVector       &solution) const;
 

@@ -137,6 +137,15 @@ namespace Exemplar
     solve(std::vector<double> &columns)
         = 0;
 
+    /// solve() to a tenth of each column at least, for an estimate. Returns whether it is rough: direct solvers know no
+    /// less than all digits.
+    virtual bool
+    estimate(std::vector<double> &columns)
+    {
+      solve(columns);
+      return false;
+    }
+
     /// An independent operator on the same pattern, with its own values and factor, for concurrent
     /// use in another thread; null if not supported.
     virtual std::unique_ptr<SpdOperator>

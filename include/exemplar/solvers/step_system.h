@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace Exemplar
@@ -71,6 +72,10 @@ namespace Exemplar
     {
       return solve(at, evaluation.gradient, evaluation.elastic.weight_gradient);
     }
+
+    /// The positions of solve()'s step, and whether they are rough, as SpdOperator::estimate() has it.
+    std::pair<BorderedVector, bool>
+    estimate(const State &at, const Evaluation &evaluation);
 
     /// Solve for any derivatives: by degree of freedom [N] and, with weights to find, by weight [J].
     BorderedVector
@@ -137,6 +142,12 @@ namespace Exemplar
     memory_of_weights() const;
 
   private:
+    /// What solve() overwrites by the step.
+    BorderedVector
+    right_side(const State               &at,
+               const Vector              &gradient,
+               const std::vector<double> &weight_gradient) const;
+
     void
     factorize_by(void (BorderedSystem::*how)(const Vector &), const Vector &positions);
 

@@ -136,6 +136,25 @@ namespace Exemplar::Testing
       expect_agreement(bar);
     }
 
+    TEST_F(IterativeOperator, SolvesRoughlyForAnEstimate)
+    {
+      const Mesh    mesh(BentBar::fine_mesh());
+      BentBar       bar(left_end(mesh));
+      const Columns load(bar.free_dofs.size(), 1.);
+      const auto    solve = [&](SpdOperator &matrix, const bool is_rough)
+      {
+        Columns column = load;
+        bar.fill(matrix);
+        matrix.factorize(bar.body.fe_space.rest_positions());
+        EXPECT_EQ(matrix.estimate(column), is_rough);
+        return column;
+      };
+      const double error
+          = relative_difference(solve(*bar.iterative(), true), solve(*bar.cholmod(), false));
+      EXPECT_LT(error, 0.3);
+      EXPECT_GT(error, 1e-6);
+    }
+
     /// All values and the diagonal's, times these.
     void
     scale(SpdOperator            &matrix,
