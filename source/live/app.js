@@ -3,6 +3,7 @@ import { Vector3 } from "./three/build/three.module.js";
 import { Connection } from "./messages.js";
 import { Panel } from "./panel.js";
 import { Pointer } from "./pointer.js";
+import { decodeSkin } from "./skin.js";
 import { View } from "./view.js";
 
 const find = (id) => document.getElementById(id);
@@ -32,6 +33,7 @@ const hear = {
     poses.clear();
     view.setScene(scene);
     panel.setScene(scene);
+    fetchSkin();
   },
   state(state) {
     const isOther = JSON.stringify(state.pins) !== JSON.stringify(pins);
@@ -59,15 +61,39 @@ const hear = {
   saved: ({ text }) => panel.say(`The pose is in ${text}.`),
 };
 
+// While the surface that is drawn comes, the first frame and the newest wait for it.
+let waiting = null;
+
+async function fetchSkin() {
+  const mine = (waiting = scene.draws_surface ? { first: null, newest: null } : null);
+  if (!mine)
+    return;
+  const answer = await fetch("surface.bin").catch(() => null);
+  const skin = answer && answer.ok ? decodeSkin(await answer.arrayBuffer()) : null;
+  if (waiting !== mine)
+    return; // there is another scene
+  waiting = null;
+  if (skin)
+    view.setSkin(skin);
+  for (const frame of [mine.first, mine.newest])
+    frame && seeFrame(frame);
+}
+
 function seeFrame(frame) {
+  if (waiting) {
+    waiting.first ? (waiting.newest = frame) : (waiting.first = frame);
+    if (frame.number > 0)
+      connection.acknowledge(frame.number);
+    return;
+  }
   const isFirst = !view.hasPlace;
-  view.setPlaces(frame.places);
-  view.body.setColours(frame.colours);
+  view.setPlaces(frame.places, frame.inner);
+  view.setColours(frame.colours);
   if (frame.obstacles)
     view.obstacles.setPlaces(frame.obstacles);
   panel.showLegend(frame);
   if (isFirst) {
-    view.drawPoses([...poses].map(([i, places]) => ({ places, canvas: panel.weights.bars[i].picture })));
+    view.drawPoses([...poses].map(([i, pose]) => ({ ...pose, canvas: panel.weights.bars[i].picture })), frame);
     showMarks();
   }
   if (frame.number > 0)
@@ -84,7 +110,7 @@ const connection = new Connection({
     else if (message.kind === 4)
       view.obstacles.setPlaces(message.places);
     else if (message.kind === 2)
-      poses.set(message.number, message.places);
+      poses.set(message.number, { places: message.places, inner: message.inner });
     else
       seeFrame(message);
   },

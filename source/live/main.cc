@@ -17,6 +17,7 @@
 #include <csignal>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <optional>
 #include <thread>
@@ -29,8 +30,9 @@ namespace Exemplar::Live
     /// Arguments of the command line.
     struct Arguments
     {
-      std::string              record;
-      std::optional<double>    floor;                   ///< where it is along gravity's axis [m]
+      std::string           record;
+      std::optional<double> floor; ///< where it is along gravity's axis [m]
+      std::string           up; ///< y or z, of scenes without gravity; empty: as the surface has it
       std::vector<std::string> shown, overrides, hosts; ///< shown: a scene, or outputs of runs
       ListenAt                 place;
       unsigned int             n_threads        = 1;
@@ -71,9 +73,15 @@ Exit status:
           ->allow_extra_args(false);
       app.add_option("--record", arguments.record,
                      "directory in which the session is kept as a scene that plays it again");
-      app.add_option("--floor", arguments.floor,
-                     "a floor at this coordinate [m] along the axis of gravity, z without any; its "
-                     "friction is 0.5");
+      app.add_option(
+          "--floor", arguments.floor,
+          "a floor at this coordinate [m] along the axis of gravity, or that of --up; its "
+          "friction is 0.5");
+      app.add_option("--up", arguments.up,
+                     "the axis that points up if there is no gravity: y (for what Blender has "
+                     "written as .obj) or z "
+                     "(for all else)")
+          ->check(CLI::IsMember({ "y", "z" }));
       app.add_option("--threads", arguments.n_threads, "threads of the solver")
           ->check(CLI::Range(1, 1024))
           ->capture_default_str();
@@ -101,19 +109,31 @@ Exit status:
       return overrides;
     }
 
-    /// Overrides, and what makes a floor at this coordinate among a scene's obstacles. Throws UserError as SceneFile.
+    /// The axis, counted from 0, that points up in a scene without gravity: Blender turns y up when it writes an .obj.
+    unsigned int
+    axis_of_up(const std::string &asked, const std::string &surface)
+    {
+      std::string   first;
+      std::ifstream file(surface);
+      std::getline(file, first);
+      const bool is_of_blender = first.compare(0, 9, "# Blender") == 0;
+      return asked == "y" || (asked.empty() && is_of_blender) ? 1 : 2;
+    }
+
+    /// Overrides, and what makes a floor at this coordinate among a scene's obstacles. Throws UserError if one
+    /// of them has its name.
     std::vector<std::string>
     with_floor(std::vector<std::string> overrides,
-               const std::string       &scene_file,
-               const double             place)
+               const SceneFile         &scene,
+               const double             place,
+               const unsigned int       axis_without_gravity)
     {
-      const SceneFile              scene(scene_file, overrides);
       const std::array<double, 3> &gravity = scene.get_parameters().loads.gravity;
       const auto                   steep   = std::max_element(gravity.begin(), gravity.end(),
                                                               [](const double a, const double b)
                                                               { return std::abs(a) < std::abs(b); });
-      const std::size_t            axis    = *steep == 0. ? 2 : steep - gravity.begin();
-      std::string                  names;
+      const std::size_t axis = *steep == 0. ? axis_without_gravity : steep - gravity.begin();
+      std::string       names;
       for (const ObstacleParameters &obstacle : scene.get_parameters().obstacles.named)
       {
         if (obstacle.name == "floor")
@@ -243,11 +263,14 @@ Exit status:
       if (arguments.shown.size() > 1)
         throw UserError("exemplar live takes one scene, or one or two output directories of runs.");
       std::vector<std::string> overrides = with_defaults(arguments.overrides);
+      const SceneFile          given(arguments.shown.front(), overrides);
+      const unsigned int       axis
+          = axis_of_up(arguments.up, given.get_parameters().mesh.surface_file());
       if (arguments.floor)
-        overrides = with_floor(overrides, arguments.shown.front(), *arguments.floor);
+        overrides = with_floor(overrides, given, *arguments.floor, axis);
       const SceneFile scene(arguments.shown.front(), overrides);
       const Access    access(arguments.hosts, host_of(arguments.place));
-      const Site      site;
+      Site            site;
       Stage           stage(scene, arguments.record, arguments.n_threads);
       Mailbox         mailbox;
       ServerLog       log;
@@ -259,8 +282,10 @@ Exit status:
               { boost::asio::post(context, [&audience, frame] { audience.show(frame); }); },
               [&](std::string text)
               { boost::asio::post(context, [&audience, text] { audience.tell(text); }); } };
-      Simulation simulation(stage, mailbox, outbox);
+      Simulation simulation(stage, mailbox, outbox,
+                            up_of(scene.get_parameters().loads.gravity, axis));
       audience.set_welcome(simulation.welcome());
+      site.set_surface(simulation.drawn_surface());
       for (const std::string &warning : stage.get_problem().warnings())
         std::cerr << "Warning: " << warning << std::endl;
       if (const auto earlier = stage.begin(); !earlier.empty())

@@ -17,13 +17,16 @@ export function decode(buffer) {
   const shorts = new Int16Array(buffer, HEAD, 3 * n);
   for (let i = 0; i < 3 * n; ++i)
     places[i] = min[i % 3] + ((shorts[i] / 32767 + 1) / 2) * size[i % 3];
+  const rest = end < buffer.byteLength ? decode(buffer.slice(end)) : null;
+  const tails = rest ? [rest, ...rest.tails] : []; // obstacles, once they have moved, and inner nodes of a drawn surface
+  const tail = (wanted) => (tails.find((other) => other.kind === wanted) || { places: null }).places;
   return {
-    kind, places,
+    kind, places, tails,
     number: data.getUint32(4, true), step: data.getUint32(8, true), pointer: data.getUint32(12, true),
     time: data.getFloat64(16, true),
     colours: data.getUint32(52, true) ? new Uint8Array(buffer, HEAD + 6 * n, n) : null,
     low: data.getFloat32(56, true), high: data.getFloat32(60, true),
-    obstacles: end < buffer.byteLength ? decode(buffer.slice(end)).places : null, // once they have moved
+    obstacles: tail(4), inner: tail(5),
   };
 }
 

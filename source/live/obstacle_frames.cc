@@ -3,22 +3,18 @@
 
 namespace Exemplar::Live
 {
-  namespace
+  SpaceVector3
+  up_of(const std::array<double, 3> &gravity, const unsigned int axis_without)
   {
-    SpaceVector3
-    against_gravity(const Problem &problem)
-    {
-      const auto        &g = problem.parameters.loads.gravity;
-      const SpaceVector3 gravity({ g[0], g[1], g[2] });
-      return gravity.norm() > 0. ? -gravity / gravity.norm() : SpaceVector3({ 0., 0., 1. });
-    }
+    const SpaceVector3 down({ gravity[0], gravity[1], gravity[2] });
+    SpaceVector3       up;
+    up[axis_without] = 1.;
+    return down.norm() > 0. ? -down / down.norm() : up;
+  }
 
-  } // namespace
-
-  Floor::Floor(const Problem &problem)
+  Floor::Floor(const Problem &problem, const SpaceVector3 &up)
   {
     const Obstacles *const obstacles = problem.actions.obstacles.get();
-    const SpaceVector3     up        = against_gravity(problem);
     for (unsigned int i = 0; obstacles != nullptr && !level && i < obstacles->all.size(); ++i)
     {
       const ObstacleShape &shape = obstacles->all[i].shape();
@@ -31,10 +27,10 @@ namespace Exemplar::Live
     }
   }
 
-  ObstacleFrames::ObstacleFrames(const Problem &problem)
+  ObstacleFrames::ObstacleFrames(const Problem &problem, const SpaceVector3 &up)
   {
     const Obstacles *const            obstacles = problem.actions.obstacles.get();
-    const std::optional<unsigned int> floor     = Floor(problem).obstacle;
+    const std::optional<unsigned int> floor     = Floor(problem, up).obstacle;
     if (obstacles == nullptr || obstacles->all.size() == (floor ? 1 : 0))
       return;
     picture.emplace(*obstacles, problem.body.mesh.diameter(), 1., floor);

@@ -79,7 +79,7 @@ export class Pointer {
       return;
     const point = view.body.pointOf(held.hit);
     view.marks.showSpring(point, held.target, view.eye.camera);
-    view.body.showPatch(held.kind === "handle" ? null : point, this.radius());
+    view.showPatch(held.kind === "handle" ? null : point, this.radius());
     if (!held.changed)
       return;
     held.changed = false;
@@ -100,7 +100,7 @@ export class Pointer {
     if (!view.body)
       return;
     if (!over || !this.mayAct()) {
-      view.body.showPatch(null);
+      view.showPatch(null);
       return view.marks.stress(null);
     }
     if (begin < this.rest)
@@ -108,7 +108,7 @@ export class Pointer {
     const hit = view.pick(over);
     const handle = hit && this.tool() !== "pin" ? this.handleAt(view.body.corners(hit.triangle)) : null;
     this.rest = performance.now() + 4 * (performance.now() - begin);
-    view.body.showPatch(hit && !handle ? hit.point : null, this.radius());
+    view.showPatch(hit && !handle ? hit.point : null, this.radius());
     view.marks.stress(handle ? handle.name : null);
     this.show(handle ? "handle" : hit ? (this.tool() === "pin" ? "brush" : "body") : "beside");
   }
@@ -137,7 +137,7 @@ export class Pointer {
     this.held = null;
     this.view.controls.enabled = true;
     this.show("nothing");
-    this.view.body && this.view.body.showPatch(null);
+    this.view.showPatch(null);
   }
 
   letGo() {

@@ -38,10 +38,11 @@ namespace Exemplar::Live
     }
   } // namespace
 
-  Simulation::Simulation(Stage &stage, Mailbox &mailbox, Outbox outbox)
-      : stage(stage), mailbox(mailbox), outbox(std::move(outbox)),
-        surface(stage.get_problem().body.mesh), obstacles(stage.get_problem()),
-        hand(stage.get_problem(), surface), pace(stage.get_step_size())
+  Simulation::Simulation(Stage &stage, Mailbox &mailbox, Outbox outbox, const SpaceVector3 &up)
+      : stage(stage), mailbox(mailbox), outbox(std::move(outbox)), up(up),
+        surface(stage.get_problem().body.mesh), skin(stage.get_problem(), surface),
+        obstacles(stage.get_problem(), up), hand(stage.get_problem(), surface),
+        pace(stage.get_step_size())
   {
   }
 
@@ -52,11 +53,14 @@ namespace Exemplar::Live
     std::vector<Bytes>  binaries = { topology_message(surface) };
     const ExamplePoses &poses    = problem.examples.poses;
     for (unsigned int i = 0; i < poses.size(); ++i)
-      binaries.push_back(frame_message({ BinaryKind::pose, i }, surface, poses.pose(i)));
+      binaries.push_back(skin.beside(frame_message({ BinaryKind::pose, i }, surface, poses.pose(i)),
+                                     poses.pose(i)));
     for (const Bytes &bytes : obstacles.welcome(problem))
       binaries.push_back(bytes);
-    binaries.push_back(frame_message({}, surface, problem.state.positions));
-    return { scene_text(stage, hand, surface), state_text(stage, hand, surface, wish), binaries };
+    binaries.push_back(
+        skin.beside(frame_message({}, surface, problem.state.positions), problem.state.positions));
+    return { scene_text(stage, hand, surface, !skin.topology().empty(), up),
+             state_text(stage, hand, surface, wish), binaries };
   }
 
   void
@@ -269,10 +273,10 @@ namespace Exemplar::Live
   Simulation::show_frame()
   {
     const State &state = stage.get_problem().state;
-    outbox.frame(obstacles.beside(frame_message({ BinaryKind::frame, ++shown.n_frames, state.step,
-                                                  shown.pointer, state.time },
-                                                surface, state.positions, colours()),
-                                  stage.get_problem()));
+    const Bytes  frame = frame_message(
+         { BinaryKind::frame, ++shown.n_frames, state.step, shown.pointer, state.time }, surface,
+         state.positions, colours());
+    outbox.frame(skin.beside(obstacles.beside(frame, stage.get_problem()), state.positions));
   }
 
   void

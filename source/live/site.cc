@@ -94,12 +94,19 @@ namespace Exemplar::Live
     add("/style.css", "text/css", page_file("style.css"));
     for (const std::string name :
          { "app.js", "view.js", "body.js", "camera.js", "ground.js", "marks.js", "messages.js",
-           "obstacles.js", "latest.js", "pointer.js", "panel.js", "sliders.js", "weights.js",
-           "words.js" })
+           "obstacles.js", "skin.js", "latest.js", "pointer.js", "panel.js", "sliders.js",
+           "weights.js", "words.js" })
       add("/" + name, "text/javascript", page_file(name));
     for (const std::string name :
          { "build/three.module.js", "examples/jsm/controls/OrbitControls.js" })
       add("/three/" + name, "text/javascript", three_file(name));
+  }
+
+  void
+  Site::set_surface(const std::string &bytes)
+  {
+    if (!bytes.empty())
+      files["/surface.bin"] = { "application/octet-stream", bytes, "script-src 'none'" };
   }
 
   Site::Site(std::string page) : is_live(false)

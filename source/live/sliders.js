@@ -9,9 +9,19 @@ const same = (x) => x;
 const set = (name) => (x) => ({ type: "set", name, numbers: [x] });
 
 // `place` is where the thumb stands for a number, `number` what it stands for there: a round one.
-function settingsOf({ young, damping, gravity, examples, importance }) {
+const most = (least, x) => Math.max(least, Math.ceil(Math.abs(x)));
+
+// Along which axis gravity acts: one of the coordinates', or the direction up.
+function axisOf(up) {
+  const c = up.findIndex((x) => Math.abs(x) > 1 - 1e-9);
+  return c < 0 ? { name: "its axis, upwards", along: up } : { name: "xyz"[c], along: [0, 1, 2].map((d) => Number(c === d)) };
+}
+
+function settingsOf({ young, damping, gravity, up, examples, importance }) {
   const middle = Math.round(Math.log10(young));
-  const most = (least, x) => Math.max(least, Math.ceil(Math.abs(x)));
+  const axis = axisOf(up);
+  const part = (vector) => vector.reduce((sum, x, c) => sum + x * axis.along[c], 0);
+  const strength = most(20, part(gravity));
   return [
     { name: "importance", text: "importance of the examples", min: 0.01, max: 1, step: 0.01, place: same, number: same, pause: DEAR,
       inForce: (settings) => settings.importance, words: short, message: set("importance"), needs: examples.length > 0 && importance > 0 },
@@ -22,9 +32,9 @@ function settingsOf({ young, damping, gravity, examples, importance }) {
     { name: "damping", text: "damping", min: 0, max: most(20, damping[0]), step: 0.1, place: same, number: same, pause: DEAR,
       inForce: (settings) => settings.damping[0], words: (x) => `${short(x)} /s`,
       message: (x, settings) => ({ type: "damping", numbers: [x, settings.damping[1]] }), needs: true },
-    { name: "gravity", text: "gravity along z", min: -most(20, gravity[2]), max: most(20, gravity[2]), step: 0.1, place: same, number: same,
-      pause: PAUSE, inForce: (settings) => settings.gravity[2], words: (x) => `${short(x)} m/s²`,
-      message: (x, settings) => ({ type: "gravity", numbers: [settings.gravity[0], settings.gravity[1], x] }), needs: true },
+    { name: "gravity", text: `gravity along ${axis.name}`, min: -strength, max: strength, step: 0.1, place: same, number: same,
+      pause: PAUSE, inForce: (settings) => part(settings.gravity), words: (x) => `${short(x)} m/s²`,
+      message: (x, { gravity: now }) => ({ type: "gravity", numbers: now.map((g, c) => (axis.along[c] === 1 ? x : g + (x - part(now)) * axis.along[c])) }), needs: true },
   ];
 }
 

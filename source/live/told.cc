@@ -123,16 +123,23 @@ namespace Exemplar::Live
   } // namespace
 
   std::string
-  scene_text(Stage &stage, const Hand &hand, const BodySurface &surface)
+  scene_text(Stage              &stage,
+             const Hand         &hand,
+             const BodySurface  &surface,
+             const bool          draws_surface,
+             const SpaceVector3 &up)
   {
     const Problem       &problem    = stage.get_problem();
     const CompleteScene &parameters = problem.parameters;
+    const Floor          floor(problem, up);
     return text_of(
         { { "type", "scene" },
           { "name", std::filesystem::path(parameters.name).stem().string() },
           { "step_size", stage.get_step_size() },
           { "diameter", problem.body.mesh.diameter() },
-          { "floor", Floor(problem).level ? Json(*Floor(problem).level) : Json() },
+          { "up", { up[0], up[1], up[2] } },
+          { "draws_surface", draws_surface },
+          { "floor", floor.level ? Json(*floor.level) : Json() },
           { "cells", problem.body.mesh.n_cells() },
           { "vertices", surface.nodes.size() },
           { "triangles", surface.triangles.size() },

@@ -6,6 +6,7 @@ import { Camera } from "./camera.js";
 import { Ground } from "./ground.js";
 import { Marks } from "./marks.js";
 import { Obstacles } from "./obstacles.js";
+import { Skin } from "./skin.js";
 
 // Colours are those of style.css.
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
@@ -24,6 +25,7 @@ export class View {
     this.scene.add(this.sky, this.light, this.light.target, this.marks.group, this.marks.spring, this.ground.group);
     this.body = null;
     this.obstacles = null;
+    this.skin = null; // of a body that was made of a surface
     this.wantsGround = true;
     const dark = matchMedia("(prefers-color-scheme: dark)");
     dark.addListener(() => this.takeColours());
@@ -64,12 +66,12 @@ export class View {
   }
 
   // Which way is up, and where a floor is, before there is a body.
-  setScene({ gravity, floor }) {
+  setScene({ up, floor }) {
     this.floor = floor;
-    this.obstacles && this.scene.remove(this.obstacles.mesh);
-    this.obstacles = null;
-    const down = new THREE.Vector3().fromArray(gravity);
-    this.eye.setUp(down.length() > 0 ? down.normalize().negate() : new THREE.Vector3(0, 0, 1));
+    for (const part of [this.obstacles, this.skin])
+      part && this.scene.remove(part.mesh);
+    this.obstacles = this.skin = null;
+    this.eye.setUp(new THREE.Vector3().fromArray(up));
     this.sky.position.copy(this.eye.up);
   }
 
@@ -86,8 +88,25 @@ export class View {
     this.scene.add(this.obstacles.mesh);
   }
 
-  setPlaces(places) {
+  setSkin(data) {
+    this.skin = new Skin(data, colour("body"));
+    this.scene.add(this.skin.mesh);
+    this.body.mesh.material.visible = false; // a mesh that is not visible would not be met by the pointer
+  }
+
+  setColours(bytes) {
+    (this.skin || this.body).setColours(bytes);
+  }
+
+  // Shows the patch that the pointer would take hold of; null: none.
+  showPatch(point, radius) {
+    this.body && this.body.showPatch(point, radius);
+    this.skin && this.skin.drawn.showPatch(point, radius);
+  }
+
+  setPlaces(places, inner) {
     this.body.setPlaces(places);
+    this.skin && this.skin.setPlaces(places, inner);
     this.ground.isOld = true;
     if (this.hasPlace)
       return this.marks.move(this.body.geometry);
@@ -163,22 +182,25 @@ export class View {
     });
   }
 
-  // Small pictures of other places of the vertices: [{places, canvas}].
-  drawPoses(poses) {
-    const before = Float32Array.from(this.body.places);
+  // Small pictures of other places of the vertices: [{places, inner, canvas}]; `frame` is what is shown before and after.
+  drawPoses(poses, frame) {
+    const show = ({ places, inner }) => {
+      this.body.setPlaces(places);
+      this.skin && this.skin.setPlaces(places, inner);
+    };
     const { camera } = this.eye;
     const kept = { position: camera.position.clone(), target: this.controls.target.clone(), aspect: camera.aspect };
     const besides = [this.marks.group, this.ground.group, ...(this.obstacles ? [this.obstacles.mesh] : [])];
     besides.forEach((part) => (part.visible = false));
-    for (const { places, canvas } of poses) {
-      this.body.setPlaces(places);
+    for (const { canvas, ...pose } of poses) {
+      show(pose);
       this.renderer.setSize(canvas.width, canvas.height, false);
       camera.aspect = canvas.width / canvas.height;
       this.look("home", true);
       this.draw();
       canvas.getContext("2d").drawImage(this.renderer.domElement, 0, 0, canvas.width, canvas.height);
     }
-    this.body.setPlaces(before);
+    show(frame);
     camera.aspect = kept.aspect;
     this.look("home", true);
     camera.position.copy(kept.position);

@@ -77,7 +77,12 @@ class Frame:
          self.high) = struct.unpack_from("<4Id6f2I2f", data)
         end = 64 + (7 if self.has_colours else 6) * n
         self.box, self.colours, self._shorts = box, data[64 + 6 * n:end], data[64:64 + 6 * n]
-        self.obstacles = Frame(data[end:]) if data[end:] else None
+        tails = {}
+        tail = Frame(data[end:]) if data[end:] else None
+        while tail:  # obstacles that have moved, inner nodes of a drawn surface
+            tails[tail.kind], tail = tail, tail.next
+        self.obstacles, self.inner = tails.get(4), tails.get(5)
+        self.next = next(iter(tails.values()), None)
 
     @functools.cached_property
     def places(self):

@@ -5,17 +5,22 @@
 #include <exemplar/live/surface_frames.h>
 #include <exemplar/obstacles/obstacle_picture.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace Exemplar::Live
 {
-  /// Where the ground of a scene's page is along the axis against gravity [m]: at the first obstacle that is a half space
+  /// Which way is up: against gravity, or along this axis if there is none.
+  SpaceVector3
+  up_of(const std::array<double, 3> &gravity, unsigned int axis_without);
+
+  /// Where the ground of a scene's page is along the axis that points up [m]: at the first obstacle that is a half space
   /// across it and stays there; nothing without one.
   struct Floor
   {
-    explicit Floor(const Problem &problem);
+    Floor(const Problem &problem, const SpaceVector3 &up);
 
     std::optional<double>       level;
     std::optional<unsigned int> obstacle; ///< its number
@@ -25,7 +30,7 @@ namespace Exemplar::Live
   class ObstacleFrames
   {
   public:
-    explicit ObstacleFrames(const Problem &problem);
+    ObstacleFrames(const Problem &problem, const SpaceVector3 &up);
 
     /// Their surface, and where they are.
     std::vector<Bytes>

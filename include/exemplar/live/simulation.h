@@ -6,6 +6,7 @@
 #include <exemplar/live/mailbox.h>
 #include <exemplar/live/obstacle_frames.h>
 #include <exemplar/live/pace.h>
+#include <exemplar/live/skin_frames.h>
 #include <exemplar/live/stage.h>
 #include <exemplar/live/told.h>
 
@@ -36,11 +37,18 @@ namespace Exemplar::Live
   class Simulation
   {
   public:
-    /// `stage` and `mailbox` must outlive this.
-    Simulation(Stage &stage, Mailbox &mailbox, Outbox outbox);
+    /// `stage` and `mailbox` must outlive this. `up` is a unit vector.
+    Simulation(Stage &stage, Mailbox &mailbox, Outbox outbox, const SpaceVector3 &up);
 
     Welcome
     welcome() const;
+
+    /// What is drawn instead of the body's boundary, as SkinFrames::topology().
+    const std::string &
+    drawn_surface() const
+    {
+      return skin.topology();
+    }
 
     /// Runs until the mailbox is stopped.
     void
@@ -105,7 +113,9 @@ namespace Exemplar::Live
     Stage                  &stage;
     Mailbox                &mailbox;
     const Outbox            outbox;
+    const SpaceVector3      up;
     const BodySurface       surface;
+    const SkinFrames        skin;
     ObstacleFrames          obstacles;
     Hand                    hand;
     std::vector<Hand::Held> held_before; ///< one for each moment that the stage keeps

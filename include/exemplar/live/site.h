@@ -27,6 +27,11 @@ namespace Exemplar::Live
     /// A site of one page that needs no other file, and no WebSocket.
     explicit Site(std::string page);
 
+    /// What is drawn instead of the body's boundary, SkinFrames::topology(); no file of it while that is empty. To be called
+    /// before requests come.
+    void
+    set_surface(const std::string &bytes);
+
     /// A file's media type and bytes, and the sources that its content policy allows.
     struct File
     {

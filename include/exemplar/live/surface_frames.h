@@ -22,7 +22,8 @@ namespace Exemplar::Live
     frame                 = 1,
     pose                  = 2, ///< an example pose, as a frame with its number
     topology_of_obstacles = 3,
-    obstacles             = 4 ///< where they are, as a frame; alone, or at the end of the body's
+    obstacles             = 4, ///< where they are, as a frame; alone, or at the end of the body's
+    inner_nodes = 5 ///< places of further nodes, at the end of a frame or pose; see SkinFrames
   };
 
   /// The boundary of a body, with its own numbering of vertices.

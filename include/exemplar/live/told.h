@@ -19,9 +19,13 @@ namespace Exemplar::Live
     bool        is_paused = false;
   };
 
-  /// The constant data of a scene, sent once.
+  /// The constant data of a scene, sent once. `draws_surface`: whether SkinFrames has what is drawn.
   std::string
-  scene_text(Stage &stage, const Hand &hand, const BodySurface &surface);
+  scene_text(Stage              &stage,
+             const Hand         &hand,
+             const BodySurface  &surface,
+             bool                draws_surface,
+             const SpaceVector3 &up);
 
   /// Settings, held parts and choices: all that a page shows beside the body's positions.
   std::string
