@@ -67,7 +67,7 @@ namespace Exemplar
     total_energy(const StatisticsReader &row)
     {
       return row.number("energy_elastic", nan) + row.number("energy_example", 0.)
-             + row.number("energy_kinetic", 0.);
+             + row.number("energy_kinetic", 0.) + row.number("energy_contact", 0.);
     }
 
     double
