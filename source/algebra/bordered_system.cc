@@ -95,14 +95,15 @@ namespace Exemplar
       }
 
       void
-      solve(BorderedVector &vector, const WeightLimits &limits) override
+      solve(BorderedVector &vector, const WeightLimits &limits, const double accuracy) override
       {
-        const std::size_t n = vector.positions.size();
+        const std::size_t n  = vector.positions.size();
+        const double      to = form.coupled.empty() ? accuracy : 0.;
         if (inverse_columns.empty())
-          find_columns(vector.positions);
+          find_columns(vector.positions, to);
         else // Z is still that of this factor
         {
-          A->solve(vector.positions);
+          A->solve(vector.positions, to);
           std::copy(vector.positions.begin(), vector.positions.end(), inverse_columns.begin());
         }
         solve_weights(vector, limits);
@@ -116,12 +117,9 @@ namespace Exemplar
       }
 
       bool
-      estimate(BorderedVector &vector, const WeightLimits &limits) override
+      iterates() const override
       {
-        if (form.coupled.empty())
-          return A->estimate(vector.positions);
-        solve(vector, limits); // weights need differences of solutions
-        return false;
+        return form.coupled.empty() && A->iterates();
       }
 
       void
@@ -134,7 +132,7 @@ namespace Exemplar
       prepare() override
       {
         if (!form.coupled.empty())
-          find_columns(std::vector<double>(G.size() / form.coupled.size(), 0.));
+          find_columns(std::vector<double>(G.size() / form.coupled.size(), 0.), 0.);
       }
 
       std::unique_ptr<BorderedSystem>
@@ -154,10 +152,10 @@ namespace Exemplar
     private:
       /// z = A^-1 r_x and Z = A^-1 G
       void
-      find_columns(std::vector<double> right_side)
+      find_columns(std::vector<double> right_side, const double accuracy)
       {
         right_side.insert(right_side.end(), G.begin(), G.end());
-        A->solve(right_side); // no columns if this throws
+        A->solve(right_side, accuracy); // no columns if this throws
         inverse_columns = std::move(right_side);
       }
 

@@ -58,7 +58,7 @@ namespace Exemplar
       }
 
       void
-      solve(BorderedVector &vector, const WeightLimits & /*limits*/) override
+      solve(BorderedVector &vector, const WeightLimits & /*limits*/, double /*accuracy*/) override
       {
         Vector all(sparse.m());
         auto   next = std::copy(vector.positions.begin(), vector.positions.end(), all.begin());

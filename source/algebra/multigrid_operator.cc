@@ -231,20 +231,7 @@ namespace Exemplar
   }
 
   void
-  MultigridOperator::solve(std::vector<double> &columns)
-  {
-    solve_to(tolerance, columns);
-  }
-
-  bool
-  MultigridOperator::estimate(std::vector<double> &columns)
-  {
-    solve_to(0.1, columns);
-    return true;
-  }
-
-  void
-  MultigridOperator::solve_to(const double accuracy, std::vector<double> &columns)
+  MultigridOperator::solve(std::vector<double> &columns, const double accuracy)
   {
     const RowNumbers       &numbers = rows.get_numbers();
     const std::vector<int> &row_of  = numbers.row_of();
@@ -258,7 +245,7 @@ namespace Exemplar
       double *entries = columns.data() + column * n;
       for (std::size_t i = 0; i < n; ++i)
         right_side[row_of[i]] = entries[i];
-      solve_to(accuracy, right_side, solution);
+      solve(std::max(accuracy, tolerance), right_side, solution);
       for (std::size_t i = 0; i < n; ++i)
         entries[i] = solution[row_of[i]];
     }
@@ -334,9 +321,9 @@ namespace Exemplar
   }
 
   void
-  MultigridOperator::solve_to(const double        accuracy,
-                              const SharedVector &right_side,
-                              SharedVector       &solution)
+  MultigridOperator::solve(const double        accuracy,
+                           const SharedVector &right_side,
+                           SharedVector       &solution)
   {
     solution          = 0.;
     const double norm = std::sqrt(right_side.dot(right_side));

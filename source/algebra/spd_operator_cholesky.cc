@@ -105,7 +105,7 @@ namespace Exemplar
       }
 
       void
-      solve(std::vector<double> &columns) override
+      solve(std::vector<double> &columns, double /*accuracy*/) override
       {
         if (factor)
           factor->solve(columns);

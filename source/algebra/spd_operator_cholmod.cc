@@ -62,7 +62,7 @@ namespace Exemplar
       }
 
       void
-      solve(std::vector<double> &columns) override
+      solve(std::vector<double> &columns, double /*accuracy*/) override
       {
         const std::size_t n = pattern.n();
         if (n == 0)

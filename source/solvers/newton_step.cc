@@ -17,6 +17,18 @@ namespace Exemplar
     constexpr double       max_step_length      = 64.;
   } // namespace
 
+  double
+  Newton::accuracy_of_step(const State &state, const Evaluation &evaluation) const
+  {
+    if (!system.iterates())
+      return 0.;
+    const Residual residual = potential.residual(state, evaluation);
+    const double   r        = max_or_nan(residual.positions, residual.weights);
+    // a step leaves some r^2 in any case, and less than the tolerance is not asked for
+    return std::isfinite(r) && r > 0. ? std::max(std::min(1e-2, r), 0.1 * parameters.tolerance / r)
+                                      : 0.;
+  }
+
   bool
   Newton::find_step(const Trial      &trial,
                     const Evaluation &evaluation,
@@ -34,7 +46,7 @@ namespace Exemplar
           system.factorize_near(state.positions, state.weights, convexity);
         else
           system.factorize(state.positions, state.weights, convexity);
-        step = system.solve(state, evaluation);
+        step = system.solve(state, evaluation, accuracy_of_step(state, evaluation));
       }
       catch (const SolverFailure &failure)
       {
@@ -143,7 +155,7 @@ namespace Exemplar
     BorderedVector step;
     try
     {
-      step = system.solve(state, evaluation);
+      step = system.solve(state, evaluation, accuracy_of_step(state, evaluation));
     }
     catch (const SolverFailure &)
     {

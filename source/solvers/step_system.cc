@@ -138,38 +138,20 @@ namespace Exemplar
   BorderedVector
   StepSystem::solve(const State               &at,
                     const Vector              &gradient,
-                    const std::vector<double> &weight_gradient)
+                    const std::vector<double> &weight_gradient,
+                    const double               accuracy)
   {
     StepClock::Scope scope(clock, Phase::solve);
-    BorderedVector   unknowns = right_side(at, gradient, weight_gradient);
-    system->solve(unknowns, potential.get_weights().limits_of_changes(at.weights));
-    return unknowns;
-  }
-
-  std::pair<BorderedVector, bool>
-  StepSystem::estimate(const State &at, const Evaluation &evaluation)
-  {
-    StepClock::Scope scope(clock, Phase::solve);
-    BorderedVector   unknowns
-        = right_side(at, evaluation.gradient, evaluation.elastic.weight_gradient);
-    const bool is_rough
-        = system->estimate(unknowns, potential.get_weights().limits_of_changes(at.weights));
-    return { std::move(unknowns), is_rough };
-  }
-
-  BorderedVector
-  StepSystem::right_side(const State               &at,
-                         const Vector              &gradient,
-                         const std::vector<double> &weight_gradient) const
-  {
-    const auto    &free = potential.get_free_dofs().list();
-    BorderedVector unknowns;
+    const auto      &free = potential.get_free_dofs().list();
+    BorderedVector   unknowns;
     unknowns.positions.reserve(free.size());
     for (const unsigned int dof : free)
       unknowns.positions.push_back(-gradient[dof]);
     for (const double derivative : weight_gradient)
       unknowns.weights.push_back(-derivative);
-    unknowns.multipliers = potential.get_weights().missing_sums(at.weights);
+    const ExampleWeights &weights = potential.get_weights();
+    unknowns.multipliers          = weights.missing_sums(at.weights);
+    system->solve(unknowns, weights.limits_of_changes(at.weights), accuracy);
     return unknowns;
   }
 

@@ -111,16 +111,16 @@ namespace Exemplar
     }
 
     /// Overwrite the right side by the solution, with changes of weights within `limits`. Throws
-    /// SolverFailure if the system is singular.
+    /// SolverFailure if the system is singular. `accuracy` as in SpdOperator::solve(); with weights to find, which need
+    /// differences of solutions, it is not used.
     virtual void
-    solve(BorderedVector &right_side, const WeightLimits &limits)
+    solve(BorderedVector &right_side, const WeightLimits &limits, double accuracy = 0.)
         = 0;
 
-    /// solve() for the positions alone, as SpdOperator::estimate(). Returns whether it is rough.
+    /// Whether solve() can be had to a smaller accuracy.
     virtual bool
-    estimate(BorderedVector &right_side, const WeightLimits &limits)
+    iterates() const
     {
-      solve(right_side, limits);
       return false;
     }
 

@@ -52,10 +52,13 @@ namespace Exemplar
     }
 
     void
-    solve(std::vector<double> &columns) override;
+    solve(std::vector<double> &columns, double accuracy) override;
 
     bool
-    estimate(std::vector<double> &columns) override;
+    iterates() const override
+    {
+      return true;
+    }
 
     std::unique_ptr<KeptInverse>
     keep() const override;
@@ -82,12 +85,9 @@ namespace Exemplar
     void
     precondition(const Vector &vector, Vector &image) const;
 
-    /// Overwrite columns by solutions to residuals of `accuracy` times the columns.
+    /// A solution to a residual of `accuracy` times the right side.
     void
-    solve_to(double accuracy, std::vector<double> &columns);
-
-    void
-    solve_to(double accuracy, const SharedVector &right_side, SharedVector &solution);
+    solve(double accuracy, const SharedVector &right_side, SharedVector &solution);
 
     /// Go on from `solution` to a residual of this norm for at most `limit` iterations; returns their number,
     /// `limit` + 1 if these do not suffice.

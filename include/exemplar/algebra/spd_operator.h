@@ -132,17 +132,16 @@ namespace Exemplar
     }
 
     /// Overwrite columns C (n entries each, one after the other) by A^-1 C. Throws SolverFailure if
-    /// the matrix turns out only here not to be positive definite.
+    /// the matrix turns out only here not to be positive definite. Where the operator iterates, it may end when
+    /// the residual is `accuracy` times the column, if that is above its own tolerance.
     virtual void
-    solve(std::vector<double> &columns)
+    solve(std::vector<double> &columns, double accuracy = 0.)
         = 0;
 
-    /// solve() to a tenth of each column at least, for an estimate. Returns whether it is rough: direct solvers know no
-    /// less than all digits.
+    /// Whether solve() ends at a residual.
     virtual bool
-    estimate(std::vector<double> &columns)
+    iterates() const
     {
-      solve(columns);
       return false;
     }
 

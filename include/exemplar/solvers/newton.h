@@ -130,6 +130,11 @@ namespace Exemplar
     void
     take_step(Trial &trial, Evaluation &evaluation, SolveReport &report);
 
+    /// How well a linear solver that iterates is to solve for the next step, as BorderedSystem::solve() has it: an inexact
+    /// Newton method (S. Eisenstat and H. Walker, Choosing the forcing terms in an inexact Newton method, 1996).
+    double
+    accuracy_of_step(const State &state, const Evaluation &evaluation) const;
+
     bool
     find_step(const Trial      &trial,
               const Evaluation &evaluation,

@@ -9,7 +9,6 @@
 
 #include <functional>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace Exemplar
@@ -66,20 +65,26 @@ namespace Exemplar
     take_factor();
 
     /// The step that takes the derivatives of `evaluation`, made at `at`, to zero by the last
-    /// factor. Throws SolverFailure if the weights are not determined.
+    /// factor; `accuracy` as in BorderedSystem::solve(). Throws SolverFailure if the weights are not determined.
     BorderedVector
-    solve(const State &at, const Evaluation &evaluation)
+    solve(const State &at, const Evaluation &evaluation, const double accuracy = 0.)
     {
-      return solve(at, evaluation.gradient, evaluation.elastic.weight_gradient);
+      return solve(at, evaluation.gradient, evaluation.elastic.weight_gradient, accuracy);
     }
-
-    /// The positions of solve()'s step, and whether they are rough, as SpdOperator::estimate() has it.
-    std::pair<BorderedVector, bool>
-    estimate(const State &at, const Evaluation &evaluation);
 
     /// Solve for any derivatives: by degree of freedom [N] and, with weights to find, by weight [J].
     BorderedVector
-    solve(const State &at, const Vector &gradient, const std::vector<double> &weight_gradient);
+    solve(const State               &at,
+          const Vector              &gradient,
+          const std::vector<double> &weight_gradient,
+          double                     accuracy = 0.);
+
+    /// As BorderedSystem::iterates().
+    bool
+    iterates() const
+    {
+      return system->iterates();
+    }
 
     /// Solve for all columns of the weights now, as the first solve() would.
     void
@@ -142,12 +147,6 @@ namespace Exemplar
     memory_of_weights() const;
 
   private:
-    /// What solve() overwrites by the step.
-    BorderedVector
-    right_side(const State               &at,
-               const Vector              &gradient,
-               const std::vector<double> &weight_gradient) const;
-
     void
     factorize_by(void (BorderedSystem::*how)(const Vector &), const Vector &positions);
 
