@@ -464,7 +464,7 @@ namespace Exemplar::Live
           is_clamped = true;
     if (is_clamped)
       report.warnings.push_back("Some weights of examples are less than 0 or greater than 1, which "
-                                "Blender's importer clamps. Take Examples/Weights = simplex.");
+                                "Blender's importer clamps. Take Examples/Weights = simplex or additive.");
     AtomicFile out(options.file);
     out.stream() << bytes;
     out.commit();

@@ -52,6 +52,8 @@ SCENES = {
     "static, linear": {**STATIC, "Model/Strain": "linear"},
     "static, examples": {**STATIC, **BENT, "Examples/Weights": "free"},
     "static, bounded weights": {**STATIC, **BENT, "Examples/Weights": "simplex"},
+    "static, additive weights": {**STATIC, **BENT, "Examples/Weights": "additive", "Examples/Yield": "10",
+                                 "Examples/Pose functions": bend("pi/2") + " | " + twist("pi/3")},
     "static, prescribed weights": {**STATIC, **BENT, "Examples/Weights": "prescribed",
                                    "Examples/Prescribed weights": "1-t; t"},
     "static, loads": {**STATIC, "Loads/Gravity": None, "Loads/Names": "pull, press", "Loads/pull/Select": "boundary 2",
