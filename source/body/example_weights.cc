@@ -60,7 +60,8 @@ namespace Exemplar
                                  const double             unit_energy,
                                  const TimeAxis          &axis)
       : targets(targets), bounded(parameters.are_bounded()),
-        additive(parameters.weights == WeightRule::additive), memory(make_memory(parameters, targets))
+        additive(parameters.weights == WeightRule::additive),
+        memory(make_memory(parameters, targets))
   {
     if (parameters.weights == WeightRule::prescribed && size() > 0)
     {
@@ -310,13 +311,23 @@ namespace Exemplar
   void
   ExampleWeights::check_independence(const double unit_energy, const bool has_ridge)
   {
-    const unsigned int               k           = n_per_region();
-    const dealii::FullMatrix<double> differences = form_of_changes(targets.gram());
-    const auto second
-        = [k, this](const unsigned int d) { return additive ? d : d + d / (k - 1) + 1; };
+    const unsigned int k = n_per_region();
+    // a key may have nothing to do with a region, where the ridge keeps its weight at 0
+    const bool may_be_elsewhere = additive && has_ridge && n_regions() > 1;
     // strains of 1e-10 are rounding errors of a rest pose
-    const double   of_rounding = std::pow(1e-10 * targets.importance(), 2) * unit_energy;
-    const MinPivot least       = min_pivot(differences, of_rounding);
+    const double of_rounding             = std::pow(1e-10 * targets.importance(), 2) * unit_energy;
+    const dealii::FullMatrix<double> all = form_of_changes(targets.gram());
+    std::vector<unsigned int>        rows;
+    for (unsigned int d = 0; d < all.m(); ++d)
+      if (!may_be_elsewhere || all(d, d) > of_rounding)
+        rows.push_back(d);
+    if (rows.empty())
+      return;
+    dealii::FullMatrix<double> differences(rows.size(), rows.size());
+    differences.extract_submatrix_from(all, rows, rows);
+    const auto second = [&](const unsigned int row)
+    { return additive ? rows[row] : rows[row] + rows[row] / (k - 1) + 1; };
+    const MinPivot least = min_pivot(differences, of_rounding);
     if (differences.m() == 0 || least.ratio > 1e-8)
       return;
     const unsigned int example = second(least.row) % k;
@@ -324,17 +335,16 @@ namespace Exemplar
     const std::string  where   = region ? fmt::format(" in region {}", *region) : "";
     const std::string  which
         = fmt::format("Example {} ({}){}", targets.number(example), targets.name(example), where);
-    const std::string combination
-        = additive ? "a sum of multiples of the keys before it" : "an affine combination of the examples before it";
+    const std::string combination = additive ? "a sum of multiples of the keys before it"
+                                             : "an affine combination of the examples before it";
     if (least.ratio < 1e-12 && !has_ridge)
-      throw UserError(which
-                      + " is " + combination + ", so their weights "
+      throw UserError(which + " is " + combination
+                      + ", so their weights "
                         "are not determined. Remove it from Examples/Poses or Examples/Pose "
                         "functions, or set Examples/Weight penalty to auto.");
     std::ostringstream text;
-    text << which << " is " << (least.ratio < 1e-12 ? "" : "nearly ")
-         << combination << " (their Gram matrix "
-         << condition_of(differences, least.ratio) << "). "
+    text << which << " is " << (least.ratio < 1e-12 ? "" : "nearly ") << combination
+         << " (their Gram matrix " << condition_of(differences, least.ratio) << "). "
          << (has_ridge
                  ? "The weight penalty decides between them; remove the example if it is there "
                    "by mistake."

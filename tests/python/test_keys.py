@@ -2,14 +2,16 @@
 """Keys that add up: additive weights, against what they must be, and beside the other rules."""
 import itertools
 import unittest
+import warnings
 
 import numpy as np
 
 import exemplar
 
-# Two bricks along x, each with cubes of a metre.
-BAR = {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [4, 1, 1], "Box cells": [4, 1, 1]},
-       "Material": {"Young's modulus": 1e5, "Poisson's ratio": 0.3}, "Time": {"Increments": 1}}
+# A bar along x from 0 to 4, of which all nodes but one within its left half are held where a test wants them.
+BAR = {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [4, 1, 1], "Box cells": [8, 2, 2]},
+       "Material": {"Young's modulus": 1e5, "Poisson's ratio": 0.3}, "Time": {"Increments": 1},
+       "Model": {"Dilatation": "cells"}, "Handles": {"left": {"Select": "box 0 -1 -1 0 1 1"}}}
 LEFT, RIGHT = [["x<2 ? 1.2*x : x+0.4", "y", "z"], ["x<2 ? x : 2+1.3*(x-2)", "y", "z"]]  # longer by 20 and 30 %
 
 
@@ -20,11 +22,15 @@ def stretched(nodes, left, right):
     return places
 
 
+def drag_all(problem, motion):
+    nodes = problem.rest_positions
+    problem.grab("all", np.flatnonzero((nodes[:, 0] > 0) & ((nodes - [1, 0, 0])**2).sum(axis=1).astype(bool)), motion)
+
+
 def held_at(scene, *stretches):
-    """The problem with all nodes where parts of the two stretches put them."""
+    """The problem with the nodes where parts of the two stretches put them."""
     problem = exemplar.Problem(scene)
-    rest = problem.rest_positions
-    problem.grab("all", np.arange(len(rest)), lambda _, t: t * (stretched(rest, *stretches) - rest))
+    drag_all(problem, lambda rest, t: t * (stretched(rest, *stretches) - rest))
     problem.run()
     return problem
 
@@ -61,9 +67,13 @@ class ClosedForms(unittest.TestCase):
         poses = [stretched(nodes, 0.2, 0.3), stretched(nodes, 0.2, 0)]
         scene = keys(**{"Weights per region": True})
         del scene["Mesh"], scene["Examples"]["Pose functions"]
-        scene["Examples"]["Poses"] = "both, left"
-        problem = exemplar.Problem(scene, mesh=(nodes, cells, halves), poses=poses)
-        problem.grab("all", np.arange(len(nodes)), lambda rest, t: t * (stretched(nodes, 0.06, 0.27) - rest))
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            problem = exemplar.Problem(scene, mesh=(nodes, cells, halves), poses=poses)
+        # the second key is two thirds of the first where it acts; that it does nothing in region 2 is no mistake
+        self.assertEqual([str(one.message).split(" (")[0] for one in said], ["Example 2"])
+        self.assertIn("in region 1 is a sum of multiples of the keys before it", str(said[0].message))
+        drag_all(problem, lambda rest, t: t * (stretched(rest, 0.06, 0.27) - rest))
         problem.run()
         w = problem.weights.reshape(2, 2)
         self.assertAlmostEqual(w[0].sum(), 0.3, places=6)
@@ -77,14 +87,12 @@ class ClosedForms(unittest.TestCase):
         held = held_at(keys(Yield=density), 0.2 * part, 0.3 * part)
         lag = density * 4 / np.diag(free.weight_hessian()) # the volume is 4 m^3
         np.testing.assert_allclose(held.weights, free.weights - lag, atol=1e-9)
-        problem = exemplar.Problem(keys(Yield=4 * density))
-        rest = problem.rest_positions
-        problem.grab("all", np.arange(len(rest)), lambda _, t: np.sin(np.pi * t) * (stretched(rest, 0.2, 0.3) - rest))
-        problem.step_to(0.5) if hasattr(problem, "step_to") else problem.goto(0.5)
-        up = problem.weights
-        self.assertGreater(up.min(), 0.3)
+        problem = exemplar.Problem({**keys(Yield=density), "Time": {"Increments": 4}})
+        drag_all(problem, lambda rest, t: min(1, 2 - 2 * t) * (stretched(rest, 0.2, 0.3) - rest))
+        problem.goto(0.5)
+        np.testing.assert_allclose(problem.weights, 1 - lag, atol=1e-9)
         problem.goto(1.)
-        self.assertLess(problem.weights.max(), up.min() + 1e-12)
+        np.testing.assert_allclose(problem.weights, lag, atol=1e-9)
 
 
 class Doors(unittest.TestCase):
@@ -94,7 +102,8 @@ class Doors(unittest.TestCase):
         self.assertEqual([name for name in problem.statistics if "weight" in name or "multiplier" in name], ["weight_1", "weight_2"])
         self.assertIn("kkt_residual", problem.statistics)
         self.assertEqual([warning for warning in problem.warnings if "rest pose" in warning], [])
-        self.assertIn("does nothing", " ".join(exemplar.Problem(keys(**{"Include rest pose": False})).warnings))
+        with self.assertWarnsRegex(UserWarning, "Include rest pose = false does nothing with additive weights"):
+            exemplar.Problem(keys(**{"Include rest pose": False}))
 
     def test_states(self):
         problem = held_at(keys(), 0.2, 0.3)
@@ -115,7 +124,7 @@ class Doors(unittest.TestCase):
     def test_poses_are_set(self):
         problem = held_at(keys(), 0.2, 0.3)
         problem.set_pose(0, stretched(problem.rest_positions, 0.4, 0))
-        problem.step(1)
+        problem.step()
         np.testing.assert_allclose(problem.weights, [0.5, 1], atol=1e-6)
 
     def test_refused(self):
@@ -130,14 +139,14 @@ class Doors(unittest.TestCase):
 class Methods(unittest.TestCase):
     def test_all_end_in_the_same_place(self):
         """By Newton's method and by passes; by quasi-Newton's method a body that has come to rest."""
-        handles = {"left": {"Select": "box 0 0 0 0 1 1"}, "right": {"Select": "box 4 0 0 4 1 1", "Motion": "0.6*min(1,t); 0; 0"}}
-        scene = {**keys(Importance=0.9), "Handles": handles}
+        handles = {"left": {"Select": "box 0 -1 -1 0 1 1"}, "right": {"Select": "box 4 -1 -1 4 1 1", "Motion": "0.6*min(1,t); 0; 0"}}
+        scene = {**keys(Importance=0.8, Energy="blended"), "Handles": handles}
         newton = exemplar.Problem({**scene, "Solver": {"Tolerance": 1e-10}})
         newton.run()
         self.assertGreater(newton.weights.max(), 0.1)
         passes = exemplar.Problem({**scene, "Model": {"Gradient": "frozen"}, "Solver": {"Method": "fixed point", "Tolerance": 1e-8}})
         passes.run()
-        np.testing.assert_allclose(passes.weights, newton.weights, atol=1e-3)
+        np.testing.assert_allclose(passes.weights, newton.weights, atol=1e-2)  # frozen forces balance elsewhere
         dynamic = {**scene, "Scene": "dynamic", "Time": {"Step": 0.1, "End": 20, "Mass damping": 2}, "Solver": {"Tolerance": 1e-10}}
         moving = exemplar.Problem(dynamic)
         moving.run()
@@ -182,16 +191,16 @@ BOTH = EARS[0] + EARS[1] - NODES
 
 
 def dragged(rule, **examples):
-    """(weights, error) of the head whose ears are dragged by their ends to where both keys put them; the error is the greatest
+    """(weights, error) of the head whose ears are dragged by a line across their ends to where both keys put it; the error is the greatest
     distance of a vertex to its place in both keys over the diagonal of the head."""
     scene = {"Scene": "static", "Material": {"Young's modulus": 1e5, "Poisson's ratio": 0.3},
-             "Examples": {"Poses": "left, right", "Weights": rule, "Importance": 0.95, **examples},
+             "Examples": {"Weights": rule, "Importance": 0.95, **examples},
              "Handles": {"neck": {"Select": "box 0 0 0 4 2 0"}}}
     problem = exemplar.Problem(scene, mesh=(NODES, CELLS), poses=EARS)
     for name, is_left in ("left", True), ("right", False):
-        end = np.flatnonzero((NODES[:, 2] == 5) & ((NODES[:, 0] < 2) == is_left))
+        end = np.flatnonzero((NODES[:, 2] == 5) & (NODES[:, 1] == 1) & ((NODES[:, 0] < 2) == is_left))
         way = (BOTH - NODES)[end].mean(axis=0)
-        problem.grab(name, end, lambda _, t, way=way: t * way)
+        problem.grab(name, end, lambda rest, t, way=way: t * way + 0 * rest)
     problem.run()
     error = np.linalg.norm(problem.positions - BOTH, axis=1).max() / np.linalg.norm(np.ptp(NODES, axis=0))
     return problem.weights, error
@@ -208,12 +217,11 @@ class Ears(unittest.TestCase):
         self.assertGreater(missed, 1.3 * error)
 
     def test_solver_starts(self):
-        weights = dragged("additive")[0]
         problem = exemplar.Problem({"Scene": "static", "Material": {"Young's modulus": 1e5}, "Handles": {"neck": {"Select": "box 0 0 0 4 2 0"}},
-                                    "Examples": {"Poses": "left, right", "Weights": "additive"}, "Solver": {"Starts": "examples"}},
+                                    "Examples": {"Weights": "additive"}, "Solver": {"Starts": "examples"}},
                                    mesh=(NODES, CELLS), poses=EARS)
         problem.run()
-        np.testing.assert_allclose(problem.weights, 0 * weights, atol=1e-6)
+        np.testing.assert_allclose(problem.weights, [0, 0], atol=1e-6)
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ namespace Exemplar::Testing
     {
       std::mt19937                     generator(3);
       std::normal_distribution<double> normal(0., 0.2);
-      unsigned int                     n_of_several = 0;
+      unsigned int                     n_of_several = 0, n_least = 0;
       for (int sample = 0; sample < 200; ++sample)
       {
         std::vector<Matrix3<double>> strains(5);
@@ -51,10 +51,12 @@ namespace Exemplar::Testing
         }
         const AddedStrain found = least_sum_of_strains(strains);
         EXPECT_GE(found.least, least - 1e-12);
-        EXPECT_LT(found.least, 0.95 * least); // hardly ever another local minimum
+        EXPECT_LT(found.least, 0.9 * least);
+        n_least += found.least < least + 1e-12 ? 1 : 0;
         n_of_several += found.parts.size() > 1 ? 1 : 0;
       }
       EXPECT_GT(n_of_several, 150u);
+      EXPECT_GT(n_least, 180u); // the others are local minima
     }
 
     TEST(SumsOfStrains, KeysThatWantNoThicknessAreNamedWithTheirPlace)
@@ -67,7 +69,8 @@ namespace Exemplar::Testing
           = warnings_of(a + " | " + far + " | " + b + " | x<1 ? 0.6*x : x-0.4; y+0.001*x; z");
       ASSERT_EQ(all.size(), 1u);
       expect_contains(all[0], "stretch of 0 or less");
-      expect_contains(all[0], "element 1");
+      expect_contains(
+          all[0], "They do in 6 cells, element 37, 38, 39, 40, 41 and 1 more; most in element 37");
       expect_contains(all[0],
                       "keys 1 (pose function '" + a + "'), 3 (pose function '" + b + "'), 4 (");
       expect_contains(all[0], "want a strain of -1.2");
