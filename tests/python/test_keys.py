@@ -136,6 +136,47 @@ class Doors(unittest.TestCase):
                 exemplar.Problem({**scene, **changes})
 
 
+def slopes_fit(problem):
+    """Whether the slopes by the weights, over the greatest second derivative, are those of a least energy within the bounds."""
+    slopes = problem.weight_gradient() / np.abs(np.diag(problem.weight_hessian())).max()
+    w = problem.weights
+    return (all(0 <= w) and all(w <= 1) and all(slopes[w == 0] > -1e-5) and all(slopes[w == 1] < 1e-5)
+            and all(abs(slopes[(w > 0) & (w < 1)]) < 1e-5))
+
+
+class Neighbours(unittest.TestCase):
+    def test_laws_elements_and_terms(self):
+        """Whatever the cells are and whatever else acts, weights are the best between their bounds."""
+        handles = {"left": {"Select": "box 0 -1 -1 0 1 1"}, "right": {"Select": "box 4 -1 -1 4 1 1", "Motion": "0.8*t; 0; 0.1*t"}}
+        grain = {"Fibre direction": "1; 0.2; 0"}
+        kinds = {"fibres": {"Material": {**grain, "Fibre stiffness": 1e5}},
+                 "orthotropy": {"Material": {**grain, "Cross direction": "0; 1; 0", "Orthotropy": "1e5, 5e4, 5e4, .2, .2, .2, 3e4, 3e4, 3e4"}},
+                 "yields": {"Material": {"Yield stress": 2e3}, "Examples": {"Energy": "blended"}},
+                 "relaxes": {"Material": {"Relaxation time": 1, "Relaxing share": 0.5}, "Examples": {"Energy": "blended"}},
+                 "neo-Hookean": {"Model": {"Background": "neo-hookean"}, "Examples": {"Energy": "blended"}},
+                 "Green": {"Model": {"Strain": "green"}}, "linear": {"Model": {"Strain": "linear"}}, "P2": {"Model": {"Element": "P2"}},
+                 "patches": {"Model": {"Dilatation": "patches"}}, "shape": {"Examples": {"Acts on": "shape"}},
+                 "iterative": {"Solver": {"Linear solver": "iterative"}}, "cholmod": {"Solver": {"Linear solver": "cholmod"}},
+                 "obstacle": {"Obstacles": {"Names": "floor", "floor": {"Shape": "plane 0 0 -0.55 0 0 1"}}},
+                 "balanced": {"Loads": {"Gravity": [0, 0, -1], "Balanced": True}}}
+        seen = set()
+        for name, changes in kinds.items():
+            for kind in "static", "dynamic":
+                if (name, kind) == ("relaxes", "static"):
+                    continue
+                thick = ["x", "1.2*y", "1.2*z"]
+                scene = {**keys(Importance=0.7, Energy="mixed", **{"Pose functions": [LEFT, RIGHT, thick]}), "Scene": kind, "Handles": handles,
+                         "Time": {"Increments": 3} if kind == "static" else {"Step": 0.1, "End": 1, "Mass damping": 1}}
+                for section, more in changes.items():
+                    scene[section] = {**scene.get(section, {}), **more}
+                with self.subTest(name, kind=kind):
+                    problem = exemplar.Problem(scene)
+                    problem.run()
+                    self.assertTrue(slopes_fit(problem), (problem.weights, problem.weight_gradient()))
+                    seen.update(np.sign(problem.weights) + (problem.weights == 1))
+        self.assertEqual(seen, {0, 1, 2})
+
+
 class Methods(unittest.TestCase):
     def test_all_end_in_the_same_place(self):
         """By Newton's method and by passes; by quasi-Newton's method a body that has come to rest."""
