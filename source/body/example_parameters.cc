@@ -23,9 +23,9 @@ namespace Exemplar
                                                        { ActsOn::along_fibres, "along fibres" },
                                                        { ActsOn::across_fibres, "across fibres" } };
     const EnumTable<WeightRule>    weight_kinds    = { { WeightRule::simplex, "simplex" },
-                                                       { WeightRule::additive, "additive" },
                                                        { WeightRule::free, "free" },
-                                                       { WeightRule::prescribed, "prescribed" } };
+                                                       { WeightRule::prescribed, "prescribed" },
+                                                       { WeightRule::additive, "additive" } };
 
     /// sigma for "auto", "weak" and "paper", in units of sum E V.
     double
@@ -104,7 +104,8 @@ namespace Exemplar
              "Empty: the material's.");
     keys.add(
         "Weights", weights, weight_kinds,
-        "simplex, for poses: minimise the energy over weights that sum to one and are not negative; "
+        "simplex, for poses: minimise the energy over weights that sum to one and are not "
+        "negative; "
         "additive, for keys (a smile, a blink): over weights that are each between 0 and 1, of "
         "keys that are added to the rest pose (statistics: weight_i from weight_1 on); free: that "
         "sum to one, as the paper; prescribed: as Prescribed weights gives them.");
@@ -117,18 +118,19 @@ namespace Exemplar
              "; ");
     keys.add(
         "Yield", yield,
-        "How much energy [J/m^3] it costs to change simplex or additive weights: a step adds Y_i times the "
+        "How much energy [J/m^3] it costs to change simplex or additive weights: a step adds Y_i "
+        "times the "
         "change of each weight, with Y_i = Yield times the volume on which it acts, so that a "
         "weight stays where it is until the force on it is greater than Y_i, and a body that is "
         "let go stays bent. 0: examples let go at once. For a start take a hundredth of E times "
         "the square of the examples' strains.",
         Bounds{ 0. });
-    keys.add(
-        "Creep viscosity", creep_viscosity,
-        "How much simplex or additive weights resist the rate of their change in a dynamic scene [J s/m^3]: "
-        "a force of c_i times the rate, with c_i = Creep viscosity times the volume on which "
-        "the weight acts. 0: they follow at once.",
-        Bounds{ 0. });
+    keys.add("Creep viscosity", creep_viscosity,
+             "How much simplex or additive weights resist the rate of their change in a dynamic "
+             "scene [J s/m^3]: "
+             "a force of c_i times the rate, with c_i = Creep viscosity times the volume on which "
+             "the weight acts. 0: they follow at once.",
+             Bounds{ 0. });
     keys.add("Weights per region", weights_per_region,
              "Whether the cells of each material id have weights of their own "
              "(statistics: weight_R_i for example i in region R).");

@@ -134,7 +134,9 @@ namespace Exemplar
       if (thickness(law, -norms) > 0.)
         continue; // whichever keys act
       AddedStrain sum = least_sum_of_strains(asked);
-      least           = std::min(least, thickness(law, sum.least));
+      if (sum.parts.size() < 2)
+        continue; // inverted by one key alone, of which its pose is warned
+      least = std::min(least, thickness(law, sum.least));
       add_thin({ fe_space.cell_of(point), thickness(law, sum.least), std::move(sum) }, thin);
     }
     const Exchange &exchange = fe_space.exchange();
@@ -156,10 +158,9 @@ namespace Exemplar
       }
     warnings.push_back(fmt::format(
         "Examples/Weights = additive: strains of keys add, and where keys act on one place they "
-        "may "
-        "want a stretch of 0 or less, with which a cell is flat or inside out. They do in {} {}, "
-        "element {}; most in element {}, where {}. Let these keys ask for less there, or share 1 "
-        "among them by Examples/Weights = simplex.",
+        "may want a stretch of 0 or less, with which a cell is flat or inside out. They do in {} "
+        "{}, element {}; most in element {}, where {}. Let these keys ask for less there, or share "
+        "1 among them by Examples/Weights = simplex.",
         elements.size(), elements.size() == 1 ? "cell" : "cells", list_numbers(elements), worst,
         exchange.first_text(keys)));
   }

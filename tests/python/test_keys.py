@@ -164,7 +164,7 @@ class Neighbours(unittest.TestCase):
             for kind in "static", "dynamic":
                 if (name, kind) == ("relaxes", "static"):
                     continue
-                thick = ["x", "1.2*y", "1.2*z"]
+                thick = ["x", "1.2*y", "z"]
                 scene = {**keys(Importance=0.7, Energy="mixed", **{"Pose functions": [LEFT, RIGHT, thick]}), "Scene": kind, "Handles": handles,
                          "Time": {"Increments": 3} if kind == "static" else {"Step": 0.1, "End": 1, "Mass damping": 1}}
                 for section, more in changes.items():

@@ -11,9 +11,10 @@ namespace Exemplar
   /// <= upper_i, and terms yields_i |w_i - kinks_i| that are added to the objective.
   struct WeightLimits
   {
-    std::vector<double> lower;  ///< empty: no bounds
-    std::vector<double> upper;  ///< >= lower, which must be given then; empty: no bounds from above
-    std::vector<double> kinks;  ///< between the bounds, of which lower must be given then; empty: none
+    std::vector<double> lower; ///< empty: no bounds
+    std::vector<double> upper; ///< >= lower, which must be given then; empty: no bounds from above
+    std::vector<double>
+        kinks; ///< between the bounds, of which lower must be given then; empty: none
     std::vector<double> yields; ///< >= 0
 
     WeightLimits() = default;

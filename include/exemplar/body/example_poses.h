@@ -177,14 +177,14 @@ namespace Exemplar
     void
     compute_energies(const Material &cell_material, const Patches &patches);
 
-    const FESpace                 &fe_space;
-    const LawsOfCells              laws;
-    double                         guard_bound = ExampleConstants().guard_bound;
-    std::vector<Vector>            positions; ///< of the nodes in each example
-    const StrainRule               rule;
-    TargetBlock                    strains;
-    TargetBlock                    dilatations; ///< of patches, with a list for each weight
-    std::vector<std::string>       warnings;
+    const FESpace           &fe_space;
+    const LawsOfCells        laws;
+    double                   guard_bound = ExampleConstants().guard_bound;
+    std::vector<Vector>      positions; ///< of the nodes in each example
+    const StrainRule         rule;
+    TargetBlock              strains;
+    TargetBlock              dilatations; ///< of patches, with a list for each weight
+    std::vector<std::string> warnings;
   };
 } // namespace Exemplar
 

@@ -17,7 +17,8 @@ namespace Exemplar
   /// Residual of the optimality conditions of the weights at given positions, Eq. (13).
   struct WeightResidual
   {
-    std::vector<double> multipliers; ///< multiplier of each region's sum of weights [J], if they have sums
+    std::vector<double>
+           multipliers;    ///< multiplier of each region's sum of weights [J], if they have sums
     double deviation = 0.; ///< greatest violation of the conditions of Karush, Kuhn and Tucker [J]
   };
 
@@ -202,7 +203,7 @@ namespace Exemplar
     bool
     can_rise(const double weight) const
     {
-      return !additive || weight < 1.;
+      return !additive || !(weight >= 1.); // a NaN is at no bound, so that it shows
     }
 
     void

@@ -220,8 +220,8 @@ namespace Exemplar
   std::vector<unsigned int>
   Laboratory::weights_in_motion(const Place &at)
   {
-    const std::vector<double> slope   = evaluate(at).elastic.weight_gradient;
-    const std::vector<double> lambda  = weights.residual(at.weights, slope).multipliers;
+    const std::vector<double> slope  = evaluate(at).elastic.weight_gradient;
+    const std::vector<double> lambda = weights.residual(at.weights, slope).multipliers;
     std::vector<unsigned int> active;
     for (unsigned int i = 0; i < weights.size(); ++i)
     {

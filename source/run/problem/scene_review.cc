@@ -259,7 +259,8 @@ namespace Exemplar
   {
     const std::string doubt = describe_pose(problem.body.mesh, problem.body.fe_space,
                                             problem.examples.poses.pose(example));
-    return doubt.empty() ? doubt : fmt::format("Example {} {}",
-                                               problem.examples.poses.number(example), doubt);
+    return doubt.empty()
+               ? doubt
+               : fmt::format("Example {} {}", problem.examples.poses.number(example), doubt);
   }
 } // namespace Exemplar

@@ -50,8 +50,7 @@ namespace Exemplar
       model.strain = law_of_grain(*law);
     model.complete();
     // else the ridge alone would move the balanced rest pose
-    if (loads.balanced && examples.are_bounded()
-        && examples.weight_penalty == "auto")
+    if (loads.balanced && examples.are_bounded() && examples.weight_penalty == "auto")
       examples.weight_penalty = "weak";
     if (solver.method != Method::automatic)
       return;

@@ -39,8 +39,9 @@ namespace Exemplar
   short_name_of_pose(const ExampleTargets &examples, const unsigned int i)
   {
     const std::string &name = examples.name(i);
-    return name.find(';') == std::string::npos ? std::filesystem::path(name).stem().string()
-                                               : fmt::format("example {}", examples.number(i)); // a formula is long
+    return name.find(';') == std::string::npos
+               ? std::filesystem::path(name).stem().string()
+               : fmt::format("example {}", examples.number(i)); // a formula is long
   }
 } // namespace Exemplar
 
