@@ -331,6 +331,60 @@ namespace Exemplar
       std::vector<bool>                 at_bound;
       std::vector<int>                  side; ///< side_of() each weight; 0 without kinks
     };
+
+    /// A program with bounds from above as one with sums: weight i, 2 i here, and what it lacks to
+    /// its bound, 2 i + 1, are a group, between whom its kink is shared.
+    class PairedProgram
+    {
+    public:
+      PairedProgram(const dealii::FullMatrix<double> &form,
+                    const std::vector<double>        &linear,
+                    const WeightLimits               &limits,
+                    const std::vector<double>        &start)
+          : H(2 * linear.size(), 2 * linear.size()), sums(limits.upper),
+            start(pairs(start, limits.upper))
+      {
+        for (std::size_t i = 0; i < linear.size(); ++i)
+        {
+          for (std::size_t j = 0; j < linear.size(); ++j)
+            H(2 * i, 2 * j) = form(i, j);
+          c.insert(c.end(), { linear[i], 0. });
+          of_pairs.lower.insert(of_pairs.lower.end(), { limits.lower[i], 0. });
+        }
+        of_pairs.kinks = pairs(limits.kinks, limits.upper);
+        for (const double yield : limits.yields)
+          of_pairs.yields.insert(of_pairs.yields.end(), 2, 0.5 * yield);
+      }
+
+      WeightQpSolution
+      solve() const
+      {
+        const WeightQpSolution of_all = ActiveSet(H, c, sums, of_pairs, start).solve();
+        WeightQpSolution       solution;
+        solution.found = of_all.found;
+        for (std::size_t i = 0; i < of_all.weights.size(); i += 2)
+          solution.weights.push_back(of_all.weights[i + 1] == 0. ? sums[i / 2] // without rounding
+                                                                 : of_all.weights[i]);
+        return solution;
+      }
+
+    private:
+      /// Weights, if any, with what they lack.
+      static std::vector<double>
+      pairs(const std::vector<double> &weights, const std::vector<double> &upper)
+      {
+        std::vector<double> all;
+        for (std::size_t i = 0; i < weights.size(); ++i)
+          all.insert(all.end(), { weights[i], upper[i] - weights[i] });
+        return all;
+      }
+
+      dealii::FullMatrix<double> H;
+      std::vector<double>        c;
+      const std::vector<double> &sums;
+      WeightLimits               of_pairs;
+      const std::vector<double>  start;
+    };
   } // namespace
 
   WeightQpSolution
@@ -342,6 +396,8 @@ namespace Exemplar
   {
     if (c.empty())
       return { true, {}, {} };
+    if (!limits.upper.empty())
+      return PairedProgram(H, c, limits, start).solve();
     return ActiveSet(H, c, sums, limits, start).solve();
   }
 } // namespace Exemplar

@@ -37,6 +37,7 @@ class Settings(bpy.types.PropertyGroup):
     pin_until: IntProperty(name="until", min=0, description="Frame in which Pin lets go; 0: never")
     weights: EnumProperty(name="Weights", default="SIMPLEX", items=[
         ("SIMPLEX", "Shared", "The weights of the shape keys and of the rest are not negative and sum to 1: for poses"),
+        ("ADDITIVE", "Added", "Each shape key has a weight of its own between 0 and 1: for keys as a smile, a blink, an ear"),
         ("FREE", "Free", "They sum to 1 and may be negative or greater than 1: keys go beyond their shapes")])
     regions: EnumProperty(name="Regions", default="NONE", items=[
         ("NONE", "None", "The shape keys have the same weights in the whole body"),

@@ -24,7 +24,8 @@ namespace Exemplar
                                                        { ActsOn::across_fibres, "across fibres" } };
     const EnumTable<WeightRule>    weight_kinds    = { { WeightRule::simplex, "simplex" },
                                                        { WeightRule::free, "free" },
-                                                       { WeightRule::prescribed, "prescribed" } };
+                                                       { WeightRule::prescribed, "prescribed" },
+                                                       { WeightRule::additive, "additive" } };
 
     /// sigma for "auto", "weak" and "paper", in units of sum E V.
     double
@@ -32,8 +33,7 @@ namespace Exemplar
     {
       if (parameters.weight_penalty == "weak")
         return 1e-12;
-      const bool is_small
-          = parameters.weight_penalty == "auto" && parameters.weights == WeightRule::simplex;
+      const bool is_small = parameters.weight_penalty == "auto" && parameters.are_bounded();
       return is_small ? 1e-9 : 1e-5;
     }
 
@@ -69,7 +69,7 @@ namespace Exemplar
              " | ");
     keys.add("Include rest pose", include_rest_pose,
              "Whether the rest pose is example 0. Without it a single example is a "
-             "permanent pre-strain.");
+             "permanent pre-strain. Means nothing with additive weights.");
     keys.add("Importance", importance,
              "eta, how strongly the examples pull [-]: 0 is plain elasticity (no pose file is "
              "opened), 1 lets the examples "
@@ -78,7 +78,7 @@ namespace Exemplar
     keys.add(
         "Weight penalty", weight_penalty,
         "sigma [J] of the ridge sigma/2 sum w_i^2 on weights that are not prescribed: paper "
-        "(1e-5 sum E V over the cells), auto (1e-9 sum E V with simplex weights, which "
+        "(1e-5 sum E V over the cells), auto (1e-9 sum E V with simplex or additive weights, which "
         "decides ties and moves hardly anything, and weak with Loads/Balanced; the paper's with "
         "free ones, which would run away), weak (1e-12 sum E V) or a number not less than 0.");
     keys.add(
@@ -104,8 +104,11 @@ namespace Exemplar
              "Empty: the material's.");
     keys.add(
         "Weights", weights, weight_kinds,
-        "simplex: minimise the energy over weights that sum to one and are not negative; free: "
-        "that sum to one, as the paper; prescribed: as Prescribed weights gives them.");
+        "simplex, for poses: minimise the energy over weights that sum to one and are not "
+        "negative; "
+        "additive, for keys (a smile, a blink): over weights that are each between 0 and 1, of "
+        "keys that are added to the rest pose (statistics: weight_i from weight_1 on); free: that "
+        "sum to one, as the paper; prescribed: as Prescribed weights gives them.");
     keys.add("Prescribed weights", prescribed_weights,
              "One function of t for each example, the rest pose first where it is "
              "included, separated by ;. They sum to one. Empty in an interpolation between two "
@@ -115,18 +118,19 @@ namespace Exemplar
              "; ");
     keys.add(
         "Yield", yield,
-        "How much energy [J/m^3] it costs to change simplex weights: a step adds Y_i times the "
+        "How much energy [J/m^3] it costs to change simplex or additive weights: a step adds Y_i "
+        "times the "
         "change of each weight, with Y_i = Yield times the volume on which it acts, so that a "
         "weight stays where it is until the force on it is greater than Y_i, and a body that is "
         "let go stays bent. 0: examples let go at once. For a start take a hundredth of E times "
         "the square of the examples' strains.",
         Bounds{ 0. });
-    keys.add(
-        "Creep viscosity", creep_viscosity,
-        "How much simplex weights resist the rate of their change in a dynamic scene [J s/m^3]: "
-        "a force of c_i times the rate, with c_i = Creep viscosity times the volume on which "
-        "the weight acts. 0: they follow at once.",
-        Bounds{ 0. });
+    keys.add("Creep viscosity", creep_viscosity,
+             "How much simplex or additive weights resist the rate of their change in a dynamic "
+             "scene [J s/m^3]: "
+             "a force of c_i times the rate, with c_i = Creep viscosity times the volume on which "
+             "the weight acts. 0: they follow at once.",
+             Bounds{ 0. });
     keys.add("Weights per region", weights_per_region,
              "Whether the cells of each material id have weights of their own "
              "(statistics: weight_R_i for example i in region R).");
@@ -152,7 +156,7 @@ namespace Exemplar
   std::size_t
   ExampleParameters::n_examples() const
   {
-    return (include_rest_pose ? 1 : 0) + poses.size() + split_trimmed(pose_functions, '|').size();
+    return (has_rest_pose() ? 1 : 0) + poses.size() + split_trimmed(pose_functions, '|').size();
   }
 
   double
@@ -164,16 +168,17 @@ namespace Exemplar
   void
   ExampleParameters::check_memory() const
   {
-    if (!in_use() || weights == WeightRule::simplex || (yield == 0. && creep_viscosity == 0.))
+    if (!in_use() || are_bounded() || (yield == 0. && creep_viscosity == 0.))
       return;
     const std::string key = yield > 0. ? "Yield" : "Creep viscosity";
     throw UserError("Examples/" + key
                     + " makes weights that are found remember where they were, but "
                     + (weights == WeightRule::free
                            ? "Examples/Weights = free has no bounds that would hold them. Set "
-                             "Examples/Weights = simplex"
+                             "Examples/Weights = simplex or additive"
                            : std::string("the weights of this scene are prescribed. Set "
-                                         "Examples/Weights = simplex in a static or dynamic scene"))
+                                         "Examples/Weights = simplex or additive in a static or "
+                                         "dynamic scene"))
                     + ", or remove Examples/" + key + ".");
   }
 

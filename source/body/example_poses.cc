@@ -110,7 +110,7 @@ namespace Exemplar
       std::vector<ExamplePose> examples;
       if (!parameters.in_use())
         return examples;
-      if (parameters.include_rest_pose)
+      if (parameters.has_rest_pose())
         examples.push_back(make_pose("rest pose", mesh.get_nodes(), fe_space));
       for (const std::string &name : parameters.poses)
         examples.push_back(
@@ -132,7 +132,7 @@ namespace Exemplar
       const auto first_function = poses.size() - functions.size();
 
       std::vector<std::string> warnings;
-      for (std::size_t i = parameters.include_rest_pose ? 1 : 0; i < poses.size(); ++i)
+      for (std::size_t i = parameters.has_rest_pose() ? 1 : 0; i < poses.size(); ++i)
       {
         const auto &[name, positions] = poses[i];
         const std::string of_function = i < first_function
@@ -143,7 +143,8 @@ namespace Exemplar
           warnings.push_back("Examples/Pose functions" + of_function);
         else if (const std::string problem = describe_pose(mesh, fe_space, positions);
                  !problem.empty())
-          warnings.push_back(fmt::format("Example {} ({}) {}", i, name, problem));
+          warnings.push_back(
+              fmt::format("Example {} ({}) {}", parameters.first_number() + i, name, problem));
       }
       return warnings;
     }
@@ -170,10 +171,11 @@ namespace Exemplar
                              const std::vector<double>      &volumes,
                              const std::vector<ExamplePose> &poses)
       : ExampleTargets(names_of(poses),
-                       parameters.in_use() && parameters.include_rest_pose ? 1 : 0,
+                       parameters.in_use() && parameters.has_rest_pose() ? 1 : 0,
                        shares,
                        volumes,
-                       fe_space.exchange()),
+                       fe_space.exchange(),
+                       parameters.first_number()),
         fe_space(fe_space), laws(laws), rule{ parameters.acts_on, parameters.in_single_precision },
         strains(strain_space, *this, volumes, shares),
         dilatations(
@@ -202,6 +204,8 @@ namespace Exemplar
                       make_poses(parameters, mesh, fe_space, named_poses) }
   {
     set_parameters(parameters.importance, cell_material, patches);
+    if (parameters.weights == WeightRule::additive && size() > 0)
+      review_sums(mesh, cell_material);
   }
 
   void
@@ -232,6 +236,20 @@ namespace Exemplar
     positions[i] = make_pose(name(i), places, fe_space).positions;
   }
 
+  ExamplePoses::StrainOfPose
+  ExamplePoses::strain_of_pose(const unsigned int point,
+                               const unsigned int i,
+                               const Material    &material) const
+  {
+    const unsigned int    cell = fe_space.cell_of(point);
+    const CellLaw         law  = laws[cell];
+    const Matrix3<double> F    = fe_space.deformation_gradient(point, pose(i));
+    const Matrix3<double> E    = model_strain(law, model_rotation(law, F), F);
+    return { E, ActingStrain<double>(rule.acts_on, material.whole_of_examples(cell),
+                                     material.grain_axes(cell))
+                    .of(E) };
+  }
+
   void
   ExamplePoses::compute_strains(const Material &material)
   {
@@ -244,12 +262,7 @@ namespace Exemplar
       const CellLaw      law  = laws[cell];
       for (unsigned int i = first_strained(); i < size(); ++i)
       {
-        const Matrix3<double> F = fe_space.deformation_gradient(point, pose(i));
-        const Matrix3<double> E = model_strain(law, model_rotation(law, F), F);
-        const Matrix3<double> part
-            = ActingStrain<double>(rule.acts_on, material.whole_of_examples(cell),
-                                   material.grain_axes(cell))
-                  .of(E);
+        const auto [E, part] = strain_of_pose(point, i, material);
         add_to_stored(strains.data(), point, n_strained(), i - first_strained(),
                       own ? 1. : importance() * material.importance(cell),
                       own ? material.blend(cell).drawn_strain(part) : part);

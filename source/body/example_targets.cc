@@ -13,9 +13,10 @@ namespace Exemplar
                                  const unsigned int         first_strained,
                                  const RegionShares        &shares,
                                  const std::vector<double> &measures,
-                                 const Exchange            &exchange)
+                                 const Exchange            &exchange,
+                                 const unsigned int         first_number)
       : WeightNumbers(names_of_examples.size(), first_strained, shares.n_regions()),
-        exchange(exchange), names(std::move(names_of_examples)),
+        exchange(exchange), first_number(first_number), names(std::move(names_of_examples)),
         total(exchange.sum(std::accumulate(measures.begin(), measures.end(), 0.))),
         fraction_of_region(n_regions(), 0.)
   {

@@ -28,6 +28,9 @@ namespace Exemplar
 
   namespace
   {
+    /// A weight nearer to its upper bound than this differs from it by rounding alone.
+    constexpr double rounding_of_weights = 1e-14;
+
     std::string
     names_of_examples(const ExampleTargets &targets)
     {
@@ -56,7 +59,8 @@ namespace Exemplar
                                  const ExampleTargets    &targets,
                                  const double             unit_energy,
                                  const TimeAxis          &axis)
-      : targets(targets), bounded(parameters.weights == WeightRule::simplex),
+      : targets(targets), bounded(parameters.are_bounded()),
+        additive(parameters.weights == WeightRule::additive),
         memory(make_memory(parameters, targets))
   {
     if (parameters.weights == WeightRule::prescribed && size() > 0)
@@ -81,10 +85,18 @@ namespace Exemplar
   ExampleWeights::check_held(const std::vector<double> &values) const
   {
     if (!bounded || size() == 0)
-      throw UserError("Only weights of Examples/Weights = simplex can be held.");
+      throw UserError("Only weights of Examples/Weights = simplex or additive can be held.");
     if (!values.empty() && values.size() != size())
       throw UserError(
           fmt::format("{} weights are given, but there are {}.", values.size(), size()));
+    if (additive)
+    {
+      for (const double value : values)
+        if (!(value >= 0. && value <= 1.))
+          throw UserError("Weights that are held must be between 0 and 1; one is "
+                          + shortest_text(value) + ".");
+      return;
+    }
     for (auto region = values.begin(); region != values.end(); region += n_per_region())
     {
       const double sum   = std::accumulate(region, region + n_per_region(), 0.);
@@ -101,7 +113,8 @@ namespace Exemplar
   ExampleWeights::hold(std::vector<double> values)
   {
     check_held(values);
-    for (auto region = values.begin(); region != values.end(); region += n_per_region())
+    for (auto region = values.begin(); !additive && region != values.end();
+         region += n_per_region())
     {
       const double sum = std::accumulate(region, region + n_per_region(), 0.);
       std::for_each(region, region + n_per_region(), [sum](double &weight) { weight /= sum; });
@@ -115,7 +128,7 @@ namespace Exemplar
     const unsigned int n = targets.n_weights();
     penalty.reinit(n, n);
     form.coupled.clear();
-    form.N.reinit(n_regions(), n);
+    form.N.reinit(additive ? 0 : n_regions(), n);
     const double sigma = parameters.ridge(unit_energy);
     // the ridge is scaled by volume fractions, so that equal weights in all regions cost as much as
     // global ones
@@ -128,7 +141,8 @@ namespace Exemplar
     form.H.add(1., targets.gram());
     for (unsigned int weight = 0; weight < n; ++weight)
     {
-      form.N(weight / targets.size(), weight) = 1.;
+      if (!additive)
+        form.N(weight / targets.size(), weight) = 1.;
       if (targets.is_strained(weight))
         form.coupled.push_back(weight);
     }
@@ -208,7 +222,7 @@ namespace Exemplar
   ExampleWeights::initial() const
   {
     std::vector<double> first(size(), 0.);
-    for (unsigned int weight = 0; weight < size(); weight += n_per_region())
+    for (unsigned int weight = 0; !additive && weight < size(); weight += n_per_region())
       first[weight] = 1.;
     return at(0., first);
   }
@@ -220,6 +234,7 @@ namespace Exemplar
       return held;
     const std::vector<double> sums(form.N.m(), 1.);
     WeightLimits              limits(std::vector<double>(bounded ? size() : 0, 0.));
+    limits.upper.assign(additive ? size() : 0, 1.);
     memory.add_to(limits);
     const WeightQpSolution minimum = minimize_over_weights(form.H, c, sums, limits, start);
     if (!minimum.found)
@@ -234,6 +249,8 @@ namespace Exemplar
     WeightLimits limits;
     for (std::size_t i = 0; bounded && i < weights.size(); ++i)
       limits.lower.push_back((held.empty() ? 0. : held[i]) - weights[i]);
+    for (std::size_t i = 0; additive && i < weights.size(); ++i)
+      limits.upper.push_back((held.empty() ? 1. : held[i]) - weights[i]);
     if (held.empty()) // with held weights kinks may lie below the bounds
       memory.add_to(limits, weights);
     return limits;
@@ -257,6 +274,9 @@ namespace Exemplar
     if (bounded)
       for (double &weight : weights)
         weight = std::max(weight, 0.);
+    if (additive)
+      for (double &weight : weights)
+        weight = weight >= 1. - rounding_of_weights ? 1. : weight;
     memory.snap(weights);
   }
 
@@ -264,6 +284,12 @@ namespace Exemplar
   ExampleWeights::memory_consumption() const
   {
     return form.H.memory_consumption() + form.N.memory_consumption() + penalty.memory_consumption();
+  }
+
+  dealii::FullMatrix<double>
+  ExampleWeights::form_of_changes(const dealii::FullMatrix<double> &all) const
+  {
+    return additive ? all : form_of_differences(all, n_per_region());
   }
 
   // Affinely dependent examples, whose weights are not unique.
@@ -285,28 +311,40 @@ namespace Exemplar
   void
   ExampleWeights::check_independence(const double unit_energy, const bool has_ridge)
   {
-    const unsigned int               k           = n_per_region();
-    const dealii::FullMatrix<double> differences = form_of_differences(targets.gram(), k);
-    const auto second = [k](const unsigned int d) { return d + d / (k - 1) + 1; };
+    const unsigned int k = n_per_region();
+    // a key may have nothing to do with a region, where the ridge keeps its weight at 0
+    const bool may_be_elsewhere = additive && has_ridge && n_regions() > 1;
     // strains of 1e-10 are rounding errors of a rest pose
-    const double   of_rounding = std::pow(1e-10 * targets.importance(), 2) * unit_energy;
-    const MinPivot least       = min_pivot(differences, of_rounding);
+    const double of_rounding             = std::pow(1e-10 * targets.importance(), 2) * unit_energy;
+    const dealii::FullMatrix<double> all = form_of_changes(targets.gram());
+    std::vector<unsigned int>        rows;
+    for (unsigned int d = 0; d < all.m(); ++d)
+      if (!may_be_elsewhere || all(d, d) > of_rounding)
+        rows.push_back(d);
+    if (rows.empty())
+      return;
+    dealii::FullMatrix<double> differences(rows.size(), rows.size());
+    differences.extract_submatrix_from(all, rows, rows);
+    const auto second = [&](const unsigned int row)
+    { return additive ? rows[row] : rows[row] + rows[row] / (k - 1) + 1; };
+    const MinPivot least = min_pivot(differences, of_rounding);
     if (differences.m() == 0 || least.ratio > 1e-8)
       return;
     const unsigned int example = second(least.row) % k;
     const auto         region  = targets.region_id(second(least.row) / k);
     const std::string  where   = region ? fmt::format(" in region {}", *region) : "";
     const std::string  which
-        = fmt::format("Example {} ({}){}", example, targets.name(example), where);
+        = fmt::format("Example {} ({}){}", targets.number(example), targets.name(example), where);
+    const std::string combination = additive ? "a sum of multiples of the keys before it"
+                                             : "an affine combination of the examples before it";
     if (least.ratio < 1e-12 && !has_ridge)
-      throw UserError(which
-                      + " is an affine combination of the examples before it, so their weights "
+      throw UserError(which + " is " + combination
+                      + ", so their weights "
                         "are not determined. Remove it from Examples/Poses or Examples/Pose "
                         "functions, or set Examples/Weight penalty to auto.");
     std::ostringstream text;
-    text << which << " is " << (least.ratio < 1e-12 ? "" : "nearly ")
-         << "an affine combination of the examples before it (their Gram matrix "
-         << condition_of(differences, least.ratio) << "). "
+    text << which << " is " << (least.ratio < 1e-12 ? "" : "nearly ") << combination
+         << " (their Gram matrix " << condition_of(differences, least.ratio) << "). "
          << (has_ridge
                  ? "The weight penalty decides between them; remove the example if it is there "
                    "by mistake."
@@ -324,12 +362,12 @@ namespace Exemplar
     struct Condition
     {
       WeightMemory::Slopes slopes;
-      bool                 is_off; ///< whether the weight is off its bound
+      bool                 can_fall, can_rise; ///< whether a bound is not in the way
 
       bool
       is_free() const
       {
-        return is_off && !(slopes.up > slopes.down);
+        return can_fall && can_rise && !(slopes.up > slopes.down);
       }
 
       double
@@ -338,7 +376,7 @@ namespace Exemplar
         const double up = slopes.up + multiplier, down = slopes.down + multiplier;
         if (is_free())
           return up;
-        return std::max({ -up, is_off ? down : 0., 0. });
+        return std::max({ can_rise ? -up : 0., can_fall ? down : 0., 0. });
       }
     };
 
@@ -357,7 +395,7 @@ namespace Exemplar
           ++n;
         }
         least = std::max(least, -condition.slopes.up);
-        if (condition.is_off)
+        if (condition.can_fall)
           greatest = std::min(greatest, -condition.slopes.down);
       }
       return n > 0 ? -sum / n : 0.5 * (least + greatest);
@@ -368,7 +406,8 @@ namespace Exemplar
   ExampleWeights::residual(const std::vector<double> &weights,
                            const std::vector<double> &gradient) const
   {
-    const unsigned int k = n_per_region();
+    const unsigned int n_groups = additive ? n_unknown() : form.N.m();
+    const unsigned int k        = additive ? 1 : n_per_region();
     WeightResidual     result;
     if (!held.empty()) // held weights need no optimality
     {
@@ -376,15 +415,17 @@ namespace Exemplar
       return result;
     }
     MaxMagnitude deviation;
-    for (unsigned int region = 0; region < form.N.m(); ++region)
+    for (unsigned int group = 0; group < n_groups; ++group)
     {
       std::vector<Condition> conditions;
-      for (unsigned int weight = region * k; weight < (region + 1) * k; ++weight)
+      for (unsigned int weight = group * k; weight < (group + 1) * k; ++weight)
         conditions.push_back({ memory.slopes(weight, weights[weight], gradient[weight]),
-                               !bounded || weights[weight] > 0. });
-      result.multipliers.push_back(multiplier_of(conditions));
+                               can_fall(weights[weight]), can_rise(weights[weight]) });
+      const double multiplier = additive ? 0. : multiplier_of(conditions);
+      if (!additive)
+        result.multipliers.push_back(multiplier);
       for (const Condition &condition : conditions)
-        deviation.add(condition.deviation(result.multipliers.back()));
+        deviation.add(condition.deviation(multiplier));
     }
     result.deviation = deviation.value();
     return result;

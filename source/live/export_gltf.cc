@@ -463,8 +463,9 @@ namespace Exemplar::Live
         if (weight < -1e-6 || weight > 1. + 1e-6)
           is_clamped = true;
     if (is_clamped)
-      report.warnings.push_back("Some weights of examples are less than 0 or greater than 1, which "
-                                "Blender's importer clamps. Take Examples/Weights = simplex.");
+      report.warnings.push_back(
+          "Some weights of examples are less than 0 or greater than 1, which "
+          "Blender's importer clamps. Take Examples/Weights = simplex or additive.");
     AtomicFile out(options.file);
     out.stream() << bytes;
     out.commit();

@@ -310,8 +310,8 @@ namespace Exemplar::Live
     RunReader::pose_of_boundary(const std::size_t column, const std::vector<unsigned int> &nodes)
     {
       const auto       &examples = parameters.examples;
-      const std::size_t first    = examples.include_rest_pose ? 1 : 0;
-      if (table.names[column] != fmt::format("weight_{}", column))
+      const std::size_t first    = examples.has_rest_pose() ? 1 : 0;
+      if (table.names[column] != fmt::format("weight_{}", examples.first_number() + column))
         return {}; // of a region
       if (column < first)
         return motion.rest;

@@ -44,8 +44,8 @@ namespace Exemplar::Live
   WeightSliders::want(const std::vector<double> &values, const Problem &problem)
   {
     const ExampleWeights &weights = problem.examples.weights;
-    if (problem.parameters.examples.weights != WeightRule::simplex || weights.size() == 0)
-      throw std::invalid_argument("this scene has no weights that steps find on the simplex");
+    if (!weights.are_bounded() || weights.size() == 0)
+      throw std::invalid_argument("this scene has no weights that steps find within bounds");
     if (values.empty())
     {
       *this = {};
@@ -53,9 +53,13 @@ namespace Exemplar::Live
     }
     const double sum       = std::accumulate(values.begin(), values.end(), 0.);
     const auto   is_weight = [](const double weight) { return weight >= 0. && weight <= 1.; };
-    if (values.size() != weights.n_per_region() || std::abs(sum - 1.) > 1e-6
+    if (values.size() != weights.n_per_region()
+        || (!weights.are_additive() && std::abs(sum - 1.) > 1e-6)
         || !std::all_of(values.begin(), values.end(), is_weight))
-      throw std::invalid_argument("weights are one an example, between 0 and 1, with the sum 1");
+      throw std::invalid_argument(weights.are_additive()
+                                      ? "weights are one a key, between 0 and 1"
+                                      : "weights are one an example, between 0 and 1, with the sum "
+                                        "1");
     if (at.empty())
       at = problem.state.weights;
     to.clear();

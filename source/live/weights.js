@@ -15,7 +15,8 @@ export class Weights {
     find("with").onchange = () => this.toggle();
   }
 
-  setScene({ examples, finds_weights: areFound, importance, bounds }) {
+  setScene({ examples, finds_weights: areFound, weights_add: areAdded, importance, bounds }) {
+    this.areAdded = areAdded;
     find("examples").hidden = examples.length === 0;
     find("rule").hidden = !areFound;
     find("switch").hidden = !(importance > 0);
@@ -48,8 +49,12 @@ export class Weights {
     find("with").checked = areActing;
   }
 
-  // The others share what is left as they did before.
+  // The others share what is left as they did before, or stay where weights have no sum.
   hold(i, value) {
+    if (this.areAdded) {
+      this.latest.want(this.bars.map(({ input }, k) => (k === i ? value : Number(input.value))));
+      return;
+    }
     const rest = this.bars.reduce((sum, { input }, k) => sum + (k === i ? 0 : Number(input.value)), 0);
     const numbers = this.bars.map(({ input }, k) =>
       k === i ? value : rest > 0 ? ((1 - value) * Number(input.value)) / rest : (1 - value) / Math.max(1, this.bars.length - 1));

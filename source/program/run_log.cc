@@ -304,7 +304,7 @@ namespace Exemplar
     std::ostringstream line;
     line << "step " << problem.state.step + 1 << ", iteration " << report.iterations
          << std::scientific << std::setprecision(2) << ": residual " << report.residual;
-    if (!problem.state.multipliers.empty())
+    if (problem.examples.weights.n_unknown() > 0)
       line << ", weights' " << report.kkt_residual;
     if (report.step_length < 1.)
       line << ", step halved to " << report.step_length;

@@ -182,9 +182,9 @@ namespace Exemplar::Python
             copy.attr("flags").attr("writeable") = false; // writing would change nothing
             return copy;
           },
-          "Weights of the examples, the rest pose first if it is one; of each region one after "
-          "the\n"
-          "other if there are several. Empty without examples. A copy, read only.");
+          "Weights of the examples, the rest pose first if it is one (additive keys: weight_1 of\n"
+          "the statistics first); of each region one after the other if there are several. Empty\n"
+          "without examples. A copy, read only.");
       problem.def_property_readonly(
           "time", [](const HeldProblem &held) { return held.get().state.time; },
           "[s] in a dynamic scene, else from 0 to 1.");

@@ -62,7 +62,7 @@ namespace Exemplar::Python
     {
       std::vector<PoseFile> files;
       const ExamplePoses   &poses = problem.examples.poses;
-      const unsigned int    first = problem.parameters.examples.include_rest_pose;
+      const unsigned int    first = problem.parameters.examples.has_rest_pose();
       for (unsigned int i = 0; i < source.n_poses; ++i)
       {
         const fs::path file = directory / fmt::format("session_pose_{}.msh", i);

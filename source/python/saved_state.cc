@@ -105,11 +105,15 @@ namespace Exemplar::Python
       check_size("weights", weights.size(), rule.size());
       if (rule.n_unknown() == 0)
         return; // prescribed weights are taken instead
-      const bool   is_bounded = problem.parameters.examples.weights == WeightRule::simplex;
-      const double least      = *std::min_element(weights.begin(), weights.end());
-      if (is_bounded && least < 0.)
-        throw UserError("The state has a weight of " + shortest_text(least)
+      const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
+      if (rule.are_additive() && (*least < 0. || *most > 1.))
+        throw UserError("The state has a weight of " + shortest_text(*least < 0. ? *least : *most)
+                        + ", but with Examples/Weights = additive all are between 0 and 1.");
+      if (rule.are_bounded() && *least < 0.)
+        throw UserError("The state has a weight of " + shortest_text(*least)
                         + ", but with Examples/Weights = simplex none is below 0.");
+      if (rule.are_additive())
+        return;
       for (auto first = weights.begin(); first != weights.end(); first += rule.n_per_region())
         if (const double sum = std::accumulate(first, first + rule.n_per_region(), 0.);
             !(std::abs(sum - 1.) < 1e-8))

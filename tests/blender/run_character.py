@@ -210,6 +210,16 @@ def case_centimetres():
     return found
 
 
+def case_added():
+    body = make_body()
+    make_rig(body)
+    found = {"said": run(body, weights="ADDITIVE"), "prm": scene_file()}
+    shown = bpy.data.objects["bar result"]
+    found["keys"] = [key.name for key in shown.data.shape_keys.key_blocks]
+    found["run"], found["shown"] = run_places(), without_what_is_behind(shown, range(3, 19))
+    return found
+
+
 def case_regions():
     body = make_body()
     for name, chosen in (("exemplar region top", lambda x, y, z: z > 2), ("exemplar region foot", lambda x, y, z: z < 1)):

@@ -144,7 +144,7 @@ class LiveTest(unittest.TestCase):
 
     def test_weights_by_hand(self):
         viewer = self.viewer()
-        self.assertTrue(viewer.scene["finds_weights"])
+        self.assertTrue(viewer.scene["finds_weights"] and not viewer.scene["weights_add"])
         self.assertFalse(viewer.wait_for("status")["weights_by_hand"])
         viewer.send(type="damping", numbers=[10., 0.])
         viewer.send(type="weights", numbers=[.25, .75])
@@ -164,6 +164,21 @@ class LiveTest(unittest.TestCase):
         viewer.send(type="weights", numbers=[1., 0.])
         viewer.send(type="reset")
         viewer.until(lambda: not viewer.wait_for("status")["weights_by_hand"])
+
+    def test_keys_that_add_up_by_hand(self):
+        scene = Path(self.directory.name) / "keys.prm"
+        scene.write_text(prm({**BAR, "Examples/Pose functions": BAR["Examples/Pose functions"] + " | 1.2*x; y; z", "Examples/Weights": "additive"}))
+        with Server(scene, log=Path(self.directory.name) / "keys.txt") as server, Viewer(server) as viewer:
+            self.assertTrue(viewer.scene["finds_weights"] and viewer.scene["weights_add"])
+            self.assertEqual(viewer.scene["examples"], ["example 1", "example 2"])
+            viewer.send(type="weights", numbers=[.75, 1.])
+            viewer.wait_steps(120)
+            self.assertEqual([round(weight, 12) for weight in viewer.wait_for("status")["weights"]], [.75, 1.])
+            for wrong in ([1.], [.5, 1.1], [-.5, 1.], [0., .5, .5]):
+                viewer.send(type="weights", numbers=wrong)
+                self.assertIn("one a key, between 0 and 1", viewer.wait_for("refused")["text"])
+            viewer.send(type="weights", numbers=[])
+            viewer.until(lambda: not viewer.wait_for("status")["weights_by_hand"])
 
     def test_numbers_are_set_and_refused(self):
         viewer = self.viewer()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The formulas that doc/model.md, dynamics.md, rotations.md and solver.md print, in numpy, against the module.
 
-Held are (1) to (22), (24) to (28) and (30) to (40), with what the pages print between them (damping, guards, fibres, patches, the convex tangent
+Held are (1) to (22), (24) to (28), (30) to (40) and (44), with what the pages print between them (damping, guards, fibres, patches, the convex tangent
 of stretched cells, importance by region, quadratic elements, lumped masses, moved handles, handles that follow a pose, closed forms).
 
 Not held are (23), which no caller sees, but see RotatedMetric in tests/unit/solvers; which cells make a patch (patches_test.cc); convex tangents of
@@ -1104,6 +1104,28 @@ class OfMotion(Formulas):
 
 
 class OfStatics(Formulas):
+    def test_keys_that_add_up(self):
+        """(44) and the table below it, at equilibria with weights at both bounds and between them."""
+        seen = set()
+        for energy, part in ("scaled", 0), ("mixed", 0.2), ("blended", 1):
+            body = Body(STAR, STAR_CELLS, STAR_POSES, part=part)
+            body.E = body.E[1:]  # none of the rest pose
+            for to in np.array([[0.9, 0.7, 0.5], [-0.3, 0.4, 0.2], [0.3, 0.2, 0.8]]):
+                top = {"top": {"Select": "box -9 -9 1.1 9 9 9", "Motion": [f"{x}*t" for x in to]}}
+                problem = make(scene(Handles={**FOOT, **top}, Examples=examples(energy, Weights="additive"), Time={"Increments": 2}),
+                               STAR, STAR_CELLS, STAR_POSES)
+                problem.run()
+                x, w = problem.positions, problem.weights
+                self.near(problem.energy(x, w), body.energy(x, w))
+                slopes, size = body.weight_gradient(x, w), np.abs(np.diag(body.H())).max()
+                for weight, slope in zip(w, slopes):
+                    kind = "at 0" if weight == 0 else "at 1" if weight == 1 else "between"
+                    self.assertTrue(0 <= weight <= 1)
+                    low, high = {"at 0": (0, np.inf), "at 1": (-np.inf, 0), "between": (0, 0)}[kind]
+                    self.assertTrue(low - 1e-6 * size <= slope <= high + 1e-6 * size, (kind, slope, size))
+                    seen.add(kind)
+        self.assertEqual(seen, {"at 0", "at 1", "between"})
+
     def test_balance(self):
         """(39): what bears the loads at rest, and its energy, force and tangent anywhere, examples aside."""
         for patches in False, True:

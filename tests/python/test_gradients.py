@@ -174,13 +174,15 @@ class Differences(unittest.TestCase):
     def test_all_rules_of_weights(self):
         rules = {"simplex": {"Weights": "simplex"}, "free": {"Weights": "free"},
                  "prescribed": {"Weights": "prescribed", "Prescribed weights": "0.1; 0.2; 0.3; 0.4"},
-                 "per region": {"Weights": "simplex", "Weights per region": True}}
-        n_at_bounds = 0
+                 "per region": {"Weights": "simplex", "Weights per region": True}, "additive": {"Weights": "additive"}}
+        n_at_bounds = n_at_upper = 0
         for dilatation, (name, rule), energy in itertools.product(["cells", "patches"], rules.items(), ["scaled", "blended"]):
             with self.subTest(f"{dilatation}, {name}, {energy}"):
                 case = self.check(scene(Model={"Dilatation": dilatation}, Examples={**rule, "Energy": energy}))
                 n_at_bounds += np.count_nonzero(case.problem.weights == 0)
+                n_at_upper += np.count_nonzero(case.problem.weights == 1)
         self.assertGreater(n_at_bounds, 5)
+        self.assertGreater(n_at_upper, 0)
 
     def test_defaults_and_regions_that_blend(self):
         case = self.check(scene(Examples={"Weights per region": True, "Region blend length": 0.5}))
@@ -236,6 +238,24 @@ class Answers(unittest.TestCase):
             else:
                 other = middle
         self.assertEqual(at(part).vjp(BY_POSITIONS)["weakly_active"], [weight])
+
+    def test_weakly_active_at_1(self):
+        """The bent pose is wished more and more, until its weight is 1."""
+        base = scene(Examples={"Weights": "additive"})
+
+        def at(part):
+            return solved(base, targets=NODES + part * (POSES[1] - NODES) * held(NODES)[:, None])
+        free, bound = 0.2, 2.
+        self.assertLess(at(free).weights[1], 1)
+        self.assertEqual(at(bound).weights[1], 1)
+        for _ in range(45):
+            middle = 0.5 * (free + bound)
+            if at(middle).weights[1] == 1:
+                bound = middle
+            else:
+                free = middle
+        for part in free, bound:
+            self.assertIn(1, at(part).vjp(BY_POSITIONS)["weakly_active"])
 
     def test_functions_of_positions_and_weights_alone(self):
         """Their gradients add up to that of the sum."""

@@ -38,6 +38,8 @@ KINDS = {
     "P2": scene(Model={"Element": "P2"}),
     "plastic": scene(Material={"Yield stress": 1e3}, Examples={"Energy": "blended", "Importance": 0.5}),
     "weights that yield": scene(Examples={"Yield": 1e-3, "Creep viscosity": 1}),
+    "keys that add up": scene(Examples={"Weights": "additive"}),
+    "keys that yield": scene(Examples={"Weights": "additive", "Yield": 1e-3, "Creep viscosity": 1}),
     "static": STATIC,
 }
 

@@ -152,7 +152,7 @@ def difference(function, at, direction, step=5e-4):
 
 RULES = {"simplex": {"Weights": "simplex"}, "free": {"Weights": "free"},
          "prescribed": {"Weights": "prescribed", "Prescribed weights": "0.1+t; 0.2; 0.3-t; 0.4"},
-         "per region": {"Weights": "simplex", "Weights per region": True}}
+         "per region": {"Weights": "simplex", "Weights per region": True}, "additive": {"Weights": "additive"}}
 
 
 class Differences(unittest.TestCase):
@@ -174,7 +174,7 @@ class Differences(unittest.TestCase):
         """A quarter of all combinations; doc/scripts/measure_gradients.py has the others, too."""
         n_at_bounds = 0
         every = itertools.product(["implicit euler", "bdf2"], ["cells", "patches"], RULES.items(), ["scaled", "blended"])
-        places = itertools.product(*map(range, (2, 2, 4, 2)))
+        places = itertools.product(*map(range, (2, 2, len(RULES), 2)))
         for scheme, dilatation, (name, rule), energy in (one for one, place in zip(every, places) if sum(place) % 4 == 2 * bool(damping)):
             with self.subTest(f"{scheme}, {dilatation}, {name}, {energy}"):
                 case = self.check(scene(Time={"Scheme": scheme, **damping}, Model={"Dilatation": dilatation},

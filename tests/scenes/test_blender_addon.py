@@ -149,6 +149,13 @@ class Characters(SceneTest):
         self.assertLess(farthest(found["metres"], found["centimetres"]), .05)
         self.assertEqual([round(g, 4) for g in found["gravity"]], [0., 0., -9.81])  # -981 cm/s^2
 
+    def test_keys_that_add_up(self):
+        found = self.use("added")
+        self.assertEqual(found["said"], "Done.")
+        self.assertIn("set Weights = additive\n", found["prm"])
+        self.assertEqual(found["keys"], ["Basis", "bent"])
+        self.assert_shows_the_run(found)
+
     def test_regions_weights_and_damping(self):
         found = self.use("regions")
         self.assertEqual(found["said"], "Done.")

@@ -106,6 +106,27 @@ class ExportGltf(SceneTest):
             worst = max(worst, error)
         return gltf, worst
 
+    def test_keys_that_add_up(self):
+        """Names and poses are those of their weights, which are counted from 1 without one of the rest pose."""
+        output = self.solve({**SCENE, "Examples/Weights": "additive"})
+        self.export()
+        gltf, _ = self.measured()
+        rows = read_csv(output)
+        self.assertNotIn("weight_0", rows[0])
+        self.assertGreater(max(row["weight_1"] for row in rows), .05)
+        for _, mesh in gltf.meshes().values():
+            self.assertEqual(mesh["extras"]["targetNames"][:2], ["example 1", "example 2"])
+        for key, step in zip(gltf.keys(2, "weights"), [*range(0, 17, 2), 17], strict=True):
+            self.assertEqual(key[:2], [single(rows[step][f"weight_{i}"]) for i in (1, 2)])
+        self.write_box(SCENE, "bar.msh")
+        self.write_box(SCENE, "bent.msh", lambda x, y, z: bent(x, y, z, math.pi / 2))
+        output = self.solve({**PLAIN, "Examples/Weights": "additive"}, output="plain")
+        self.export("plain")
+        gltf = Gltf(self.directory / "run.glb")
+        self.assertEqual(gltf.json["meshes"][0]["extras"]["targetNames"][0], "bent")
+        self.assertEqual([key[0] for key in gltf.keys(2, "weights")],
+                         [single(read_csv(output)[step]["weight_1"]) for step in [*range(0, 17, 2), 17]])
+
     def test_error_said_is_error_measured(self):
         output = self.solve(SCENE)
         rows = read_csv(output)

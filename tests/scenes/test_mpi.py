@@ -52,6 +52,8 @@ SCENES = {
     "static, linear": {**STATIC, "Model/Strain": "linear"},
     "static, examples": {**STATIC, **BENT, "Examples/Weights": "free"},
     "static, bounded weights": {**STATIC, **BENT, "Examples/Weights": "simplex"},
+    "static, additive weights": {**STATIC, **BENT, "Examples/Weights": "additive", "Examples/Yield": "10",
+                                 "Examples/Pose functions": bend("-pi/2") + " | 1.2*x; y; z"},
     "static, prescribed weights": {**STATIC, **BENT, "Examples/Weights": "prescribed",
                                    "Examples/Prescribed weights": "1-t; t"},
     "static, loads": {**STATIC, "Loads/Gravity": None, "Loads/Names": "pull, press", "Loads/pull/Select": "boundary 2",
@@ -128,6 +130,16 @@ class SeveralProcesses(SceneTest):
                 with self.subTest(scene=name, processes=n):
                     one = self.solve(SCENES[name], "--quiet", output=f"one_{name}")
                     self.compare(one, several[name], self.displacement(one, SCENES[name]), 1e-8)
+
+    def test_cells_that_keys_squeeze(self):
+        """Are named by their numbers in the body, the worst one with its keys, wherever it is."""
+        poses = " | ".join(f"x>2 ? 2 + 0.6*(x-2) : x; y; z + {shear}*y" for shear in (0, 0.01, 0.02))
+        scene = {**STATIC, "Examples/Pose functions": poses, "Examples/Weights": "additive"}
+        one = self.attempt(scene, "--quiet", output="one").stderr.splitlines()
+        self.assertRegex(one[0], r"may want a stretch of 0 or less.* keys 1 \(.*, 2 \(.*, 3 \(.* want a strain of -1.2")
+        for n in 2, 3:
+            _, own, _ = launch(n, self.directory / "scene.prm", "--quiet", "--output", self.directory / f"on_{n}")
+            self.assertEqual(own[0], one[0])
 
     def test_a_bar_that_was_bent_stays_bent(self):
         """Weights that have moved and are remembered when the force is gone."""

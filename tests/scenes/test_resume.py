@@ -77,6 +77,9 @@ class Resume(SceneTest):
         self.assertEqual(found.keys(), expected.keys())
         self.assertEqual([name for name in found if found[name] != expected[name]], [])
 
+    def test_killed_scene_with_keys_that_add_up(self):
+        self.check_kills({**DYNAMIC, "Examples/Weights": "additive", "Examples/Yield": "0.1", "Examples/Creep viscosity": "1"}, [(30, 0.)])
+
     def test_killed_dynamic_scene(self):
         self.check_kills({**DYNAMIC, "Examples/Weights": "free"}, [(2, 0.), (11, 0.003), (22, 0.006), (36, 0.001)])
         rows = read_csv(self.directory / "whole")  # something must have moved

@@ -13,7 +13,8 @@
 namespace Exemplar
 {
   /// The quadratic form of k weights and the m linear constraints on them. The weights are m groups
-  /// of k/m consecutive ones, and row g of N has ones at the weights of group g.
+  /// of k/m consecutive ones, and row g of N has ones at the weights of group g. Without constraints m
+  /// is 0.
   struct WeightForm
   {
     dealii::FullMatrix<double> H;       ///< k x k

@@ -26,6 +26,9 @@ namespace Exemplar
   /// Requires that the bounds admit the sums, and that the kinks have these sums, up to rounding. A
   /// `start` within the bounds near the minimiser saves operations; its sums need be right only up
   /// to rounding. Without it the iteration begins at the kinks, if any.
+  ///
+  /// With bounds from above there are no sums, `sums` is empty, and H must be positive definite. Each
+  /// weight and what it lacks to its bound are then a group of two.
   WeightQpSolution
   minimize_over_weights(const dealii::FullMatrix<double> &H,
                         const std::vector<double>        &c,

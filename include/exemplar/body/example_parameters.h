@@ -24,6 +24,7 @@ namespace Exemplar
   enum class WeightRule
   {
     simplex,
+    additive, ///< each between 0 and 1, without a sum
     free,
     prescribed
   };
@@ -91,6 +92,28 @@ namespace Exemplar
 
     void
     declare(KeyTable &keys);
+
+    /// Whether the weights are unknowns within bounds.
+    bool
+    are_bounded() const
+    {
+      return weights == WeightRule::simplex || weights == WeightRule::additive;
+    }
+
+    /// Whether the rest pose is an example. Additive keys are added to it, and it has no weight.
+    bool
+    has_rest_pose() const
+    {
+      return include_rest_pose && weights != WeightRule::additive;
+    }
+
+    /// Number by which users know the first example, as in weight_0: 0 is kept for the rest pose
+    /// where keys are added to it.
+    unsigned int
+    first_number() const
+    {
+      return weights == WeightRule::additive ? 1 : 0;
+    }
 
     /// Whether examples need fibre directions.
     bool

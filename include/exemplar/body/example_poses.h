@@ -148,8 +148,21 @@ namespace Exemplar
                  const std::vector<double>      &volumes,
                  const std::vector<ExamplePose> &poses);
 
+    /// E_i at a point, and the part of it that examples act on.
+    struct StrainOfPose
+    {
+      Matrix3<double> whole, acting;
+    };
+
+    StrainOfPose
+    strain_of_pose(unsigned int point, unsigned int i, const Material &material) const;
+
     void
     compute_strains(const Material &material);
+
+    /// Warns of cells in which keys together ask for no thickness. Collective.
+    void
+    review_sums(const Mesh &mesh, const Material &material);
 
     void
     compute_dilatations(const Patches &patches);
@@ -164,14 +177,14 @@ namespace Exemplar
     void
     compute_energies(const Material &cell_material, const Patches &patches);
 
-    const FESpace                 &fe_space;
-    const LawsOfCells              laws;
-    double                         guard_bound = ExampleConstants().guard_bound;
-    std::vector<Vector>            positions; ///< of the nodes in each example
-    const StrainRule               rule;
-    TargetBlock                    strains;
-    TargetBlock                    dilatations; ///< of patches, with a list for each weight
-    const std::vector<std::string> warnings;
+    const FESpace           &fe_space;
+    const LawsOfCells        laws;
+    double                   guard_bound = ExampleConstants().guard_bound;
+    std::vector<Vector>      positions; ///< of the nodes in each example
+    const StrainRule         rule;
+    TargetBlock              strains;
+    TargetBlock              dilatations; ///< of patches, with a list for each weight
+    std::vector<std::string> warnings;
   };
 } // namespace Exemplar
 

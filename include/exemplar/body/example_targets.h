@@ -26,18 +26,27 @@ namespace Exemplar
   {
   public:
     /// The examples with these names, of which those before `first_strained` ask for zeros, in the
-    /// regions that share out these measures. All processes must call this and what computes sums.
+    /// regions that share out these measures. Users know the first one as `first_number`. All
+    /// processes must call this and what computes sums.
     ExampleTargets(std::vector<std::string>   names,
                    unsigned int               first_strained,
                    const RegionShares        &shares,
                    const std::vector<double> &measures,
-                   const Exchange            &exchange);
+                   const Exchange            &exchange,
+                   unsigned int               first_number = 0);
 
     /// Name of example i.
     const std::string &
     name(const unsigned int i) const
     {
       return names[i];
+    }
+
+    /// Number by which users know example i.
+    unsigned int
+    number(const unsigned int i) const
+    {
+      return first_number + i;
     }
 
     /// RegionShares::id().
@@ -104,6 +113,7 @@ namespace Exemplar
 
   private:
     const Exchange                          &exchange;
+    unsigned int                             first_number;
     std::vector<std::string>                 names;
     std::vector<std::optional<unsigned int>> ids;
     double                                   total; ///< measure of the whole body

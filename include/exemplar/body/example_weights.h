@@ -17,7 +17,8 @@ namespace Exemplar
   /// Residual of the optimality conditions of the weights at given positions, Eq. (13).
   struct WeightResidual
   {
-    std::vector<double> multipliers; ///< multiplier of each region's sum of weights [J]
+    std::vector<double>
+           multipliers;    ///< multiplier of each region's sum of weights [J], if they have sums
     double deviation = 0.; ///< greatest violation of the conditions of Karush, Kuhn and Tucker [J]
   };
 
@@ -27,8 +28,8 @@ namespace Exemplar
 
   /// The example weights: prescribed functions of time or unknowns, their bounds and sums, and the
   /// part of the energy that depends on them alone. Weight r * n_per_region() + i is that of
-  /// example i in region r; the weights of a region sum to one. A scene without examples has no
-  /// weights, and all loops over them are empty.
+  /// example i in region r; the weights of a region sum to one unless they are additive. A scene
+  /// without examples has no weights, and all loops over them are empty.
   class ExampleWeights
   {
   public:
@@ -58,7 +59,8 @@ namespace Exemplar
     set_parameters(const ExampleParameters &parameters, double unit_energy);
 
     /// Fix the unknown weights at `values`, one for each weight; an empty vector frees them. Throws
-    /// UserError, and changes nothing, unless Examples/Weights is simplex and the values lie on it.
+    /// UserError, and changes nothing, unless Examples/Weights is simplex or additive and admits the
+    /// values.
     void
     hold(std::vector<double> values);
 
@@ -72,6 +74,32 @@ namespace Exemplar
     {
       return targets.size();
     }
+
+    /// Whether weights have no sum.
+    bool
+    are_additive() const
+    {
+      return additive;
+    }
+
+    /// Whether weights are bounded: by 0 and, without a sum, by 1.
+    bool
+    are_bounded() const
+    {
+      return bounded;
+    }
+
+    /// Whether a weight of this value is off its bounds.
+    bool
+    is_off_bounds(const double weight) const
+    {
+      return can_fall(weight) && can_rise(weight);
+    }
+
+    /// The part of a form of all weights by which they can differ: of differences within regions,
+    /// or the whole one without sums.
+    dealii::FullMatrix<double>
+    form_of_changes(const dealii::FullMatrix<double> &form) const;
 
     /// Yield and creep of the weights; empty unless the scene asks for it.
     const WeightMemory &
@@ -110,7 +138,8 @@ namespace Exemplar
       return held.empty() ? weights : held;
     }
 
-    /// Initial weights: prescribed or held ones; otherwise 1 on the first example of each region.
+    /// Initial weights: prescribed or held ones; otherwise 1 on the first example of each region, or
+    /// 0 of all additive ones.
     std::vector<double>
     initial() const;
 
@@ -140,7 +169,7 @@ namespace Exemplar
     WeightLimits
     limits_of_changes(const std::vector<double> &weights) const;
 
-    /// One minus the sum of the weights, for each region.
+    /// One minus the sum of the weights, for each region; empty for additive ones.
     std::vector<double>
     missing_sums(const std::vector<double> &weights) const;
 
@@ -165,6 +194,18 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
+    bool
+    can_fall(const double weight) const
+    {
+      return !bounded || weight > 0.;
+    }
+
+    bool
+    can_rise(const double weight) const
+    {
+      return !additive || !(weight >= 1.); // a NaN is at no bound, so that it shows
+    }
+
     void
     compute_form(const ExampleParameters &parameters, double unit_energy);
 
@@ -180,7 +221,7 @@ namespace Exemplar
     check_independence(double unit_energy, bool has_ridge);
 
     const ExampleTargets      &targets;
-    const bool                 bounded; ///< whether weights are >= 0
+    const bool                 bounded, additive;
     WeightMemory               memory;
     WeightForm                 form;
     dealii::FullMatrix<double> penalty;

@@ -131,13 +131,12 @@ namespace Exemplar
   are_inactive(const Problem &problem)
   {
     const std::vector<double> &weights = problem.state.weights;
-    const WeightMemory        &memory  = problem.examples.weights.get_memory();
-    const bool is_bounded = !problem.examples.weights.limits_of_changes(weights).lower.empty();
-    std::vector<bool> inactive(problem.examples.weights.n_unknown());
+    const ExampleWeights      &rule    = problem.examples.weights;
+    std::vector<bool>          inactive(rule.n_unknown());
     for (std::size_t weight = 0; weight < inactive.size(); ++weight)
     {
-      const auto [up, down] = memory.slopes(weight, weights[weight], 0.);
-      inactive[weight]      = (!is_bounded || weights[weight] > 0.) && !(up > down);
+      const auto [up, down] = rule.get_memory().slopes(weight, weights[weight], 0.);
+      inactive[weight]      = rule.is_off_bounds(weights[weight]) && !(up > down);
     }
     return inactive;
   }

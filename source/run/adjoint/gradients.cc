@@ -19,19 +19,19 @@ namespace Exemplar
 
     /// Whether a weight is weakly active; `slope` is the potential's, multiplier included.
     bool
-    is_weak(const WeightMemory &memory,
-            const bool          is_bounded,
-            const unsigned int  weight,
-            const double        w,
-            const double        slope,
-            const double        scale)
+    is_weak(const ExampleWeights &rule,
+            const unsigned int    weight,
+            const double          w,
+            const double          slope,
+            const double          scale)
     {
-      const auto [up, down] = memory.slopes(weight, w, slope);
-      if (is_bounded && !(w > 0.))
-        return up < weak * scale;
+      const WeightMemory &memory = rule.get_memory();
+      const auto [up, down]      = memory.slopes(weight, w, slope);
+      if (!rule.is_off_bounds(w))
+        return (w > 0. ? -down : up) < weak * scale;
       if (up > down) // memory keeps the weight in place
         return std::min(up, -down) < weak * scale;
-      return (is_bounded && w < weak)
+      return (rule.are_bounded() && w < weak) || (rule.are_additive() && w > 1. - weak)
              || memory.slopes(weight, w + weak, 0.).up != memory.slopes(weight, w - weak, 0.).up;
     }
 
@@ -79,11 +79,11 @@ namespace Exemplar
     std::vector<unsigned int> found;
     if (rule.n_unknown() == 0)
       return found;
-    const bool                is_bounded  = !rule.limits_of_changes(w).lower.empty();
     const std::vector<double> multipliers = rule.residual(w, slopes).multipliers;
     for (unsigned int weight = 0; weight < w.size(); ++weight)
-      if (is_weak(rule.get_memory(), is_bounded, weight, w[weight],
-                  slopes[weight] + multipliers[weight / rule.n_per_region()],
+      if (is_weak(rule, weight, w[weight],
+                  slopes[weight]
+                      + (rule.are_additive() ? 0. : multipliers[weight / rule.n_per_region()]),
                   evaluation.elastic.weight_scale))
         found.push_back(weight);
     return found;

@@ -207,6 +207,9 @@ namespace Exemplar
     add_names(const Problem &problem, Json &json)
     {
       const ExamplePoses &poses = problem.examples.poses;
+      // numbers of weights are indices of this list: keys are added to the rest pose, their 0
+      if (problem.examples.weights.are_additive())
+        json["example_names"].push_back("rest pose");
       for (unsigned int i = 0; i < poses.size(); ++i)
         json["example_names"].push_back(printable(short_name_of_pose(poses, i)));
       if (problem.body.exchange().n_processes() > 1)

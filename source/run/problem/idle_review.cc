@@ -67,7 +67,7 @@ namespace Exemplar
     bool
     may_rest(const Examples &examples)
     {
-      return examples.poses.size() == 0
+      return examples.poses.size() == 0 || examples.weights.are_additive()
              || (!examples.weights.are_prescribed() && !examples.poses.is_strained(0));
     }
   } // namespace

@@ -184,7 +184,7 @@ namespace Exemplar
       throw UserError(
           weights.are_prescribed()
               ? "Examples/Weights = prescribed: the weights are no unknowns, so that Phi has no "
-                "derivative by them. Take Examples/Weights = simplex or free."
+                "derivative by them. Take Examples/Weights = simplex, additive or free."
               : "The scene has no examples, hence no weights. Give Examples/Poses and an "
                 "Importance above 0.");
   }
@@ -220,16 +220,15 @@ namespace Exemplar
   std::vector<unsigned int>
   Laboratory::weights_in_motion(const Place &at)
   {
-    const std::vector<double> slope   = evaluate(at).elastic.weight_gradient;
-    const bool                bounded = problem.parameters.examples.weights == WeightRule::simplex;
-    const std::vector<double> lambda  = weights.residual(at.weights, slope).multipliers;
+    const std::vector<double> slope  = evaluate(at).elastic.weight_gradient;
+    const std::vector<double> lambda = weights.residual(at.weights, slope).multipliers;
     std::vector<unsigned int> active;
     for (unsigned int i = 0; i < weights.size(); ++i)
     {
       const auto   slopes = weights.get_memory().slopes(i, at.weights[i], slope[i]);
       const double l      = lambda.empty() ? 0. : lambda[i / weights.n_per_region()];
       const bool   sticks = slopes.up > slopes.down && slopes.up + l > 0. && slopes.down + l < 0.;
-      if (!(bounded && at.weights[i] <= 0.) && !sticks)
+      if (weights.is_off_bounds(at.weights[i]) && !sticks)
         active.push_back(i);
     }
     return active;

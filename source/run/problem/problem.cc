@@ -248,7 +248,7 @@ namespace Exemplar
     result.matrix                           = system.bordered().traits().pivot_ratio;
     const dealii::FullMatrix<double> &schur = solver->schur_complement();
     if (schur.m() > 0)
-      result.schur = condition_number(form_of_differences(schur, examples.weights.n_per_region()));
+      result.schur = condition_number(examples.weights.form_of_changes(schur));
     return result;
   }
 

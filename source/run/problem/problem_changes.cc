@@ -219,7 +219,7 @@ namespace Exemplar
   void
   Problem::set_pose(const unsigned int i, const std::vector<dealii::Point<3>> &places)
   {
-    const bool has_rest = parameters.examples.include_rest_pose;
+    const bool has_rest = parameters.examples.has_rest_pose();
     if (i >= examples.poses.size() || (i == 0 && has_rest))
       throw UserError(
           fmt::format("{}: there is no pose {} to set. {}", parameters.name, i,

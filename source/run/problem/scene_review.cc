@@ -203,7 +203,7 @@ namespace Exemplar
     Warning
     review_lone_example(const Problem &problem)
     {
-      if (problem.examples.poses.size() != 1
+      if (problem.examples.poses.size() != 1 || problem.examples.weights.are_additive()
           || problem.parameters.scene == SceneKind::interpolation)
         return {};
       return "There is one example, and Examples/Include rest pose is false: its weight is always "
@@ -259,6 +259,8 @@ namespace Exemplar
   {
     const std::string doubt = describe_pose(problem.body.mesh, problem.body.fe_space,
                                             problem.examples.poses.pose(example));
-    return doubt.empty() ? doubt : fmt::format("Example {} {}", example, doubt);
+    return doubt.empty()
+               ? doubt
+               : fmt::format("Example {} {}", problem.examples.poses.number(example), doubt);
   }
 } // namespace Exemplar

@@ -55,7 +55,7 @@ namespace Exemplar
     {
       const bool is_dynamic = scene.scene == SceneKind::dynamic;
       const bool has_examples
-          = scene.examples.n_examples() > (scene.examples.include_rest_pose ? 1 : 0);
+          = scene.examples.n_examples() > (scene.examples.has_rest_pose() ? 1 : 0);
       std::vector<Ignored>       kinds       = constants_of_absent_laws(scene.material);
       const std::vector<Ignored> of_sections = {
         { !is_dynamic,
@@ -78,6 +78,9 @@ namespace Exemplar
         { scene.examples.weights == WeightRule::prescribed,
           { "Examples/Weight penalty" },
           "with prescribed weights, of which none is looked for. Remove it." },
+        { scene.examples.weights == WeightRule::additive,
+          { "Examples/Include rest pose" },
+          "with additive weights, whose keys are added to the rest pose. Remove it." },
         { scene.obstacles.empty(),
           { "Obstacles/Distance", "Obstacles/Slip speed", "Obstacles/Lag tolerance",
             "Obstacles/Free" },

@@ -35,6 +35,9 @@ namespace Exemplar
   {
     if (scene == SceneKind::interpolation)
     {
+      refuse({ { examples.weights == WeightRule::additive,
+                 "Scene = interpolation follows prescribed weights that sum to 1, but "
+                 "Examples/Weights = additive. Remove that, or choose Scene = static." } });
       examples.importance = 1.;
       examples.weights    = WeightRule::prescribed;
       if (examples.prescribed_weights.empty() && examples.n_examples() == 2)
@@ -47,8 +50,7 @@ namespace Exemplar
       model.strain = law_of_grain(*law);
     model.complete();
     // else the ridge alone would move the balanced rest pose
-    if (loads.balanced && examples.weights == WeightRule::simplex
-        && examples.weight_penalty == "auto")
+    if (loads.balanced && examples.are_bounded() && examples.weight_penalty == "auto")
       examples.weight_penalty = "weak";
     if (solver.method != Method::automatic)
       return;
@@ -145,7 +147,7 @@ namespace Exemplar
     const bool is_dynamic      = scene == SceneKind::dynamic;
     const bool is_quasi_newton = solver.method == Method::quasi_newton;
     const bool descends        = is_quasi_newton || solver.method == Method::newton;
-    const bool bounded         = examples.in_use() && examples.weights == WeightRule::simplex;
+    const bool bounded         = examples.in_use() && examples.are_bounded();
     refuse(
         { { descends && model.is_frozen(),
             "Solver/Method = " + method_name(solver.method)

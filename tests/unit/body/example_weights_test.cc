@@ -99,5 +99,83 @@ namespace Exemplar::Testing
       EXPECT_EQ(examples.weights->at(0.3, some), some);
       EXPECT_THROW(body.examples(two_poses(WeightRule::free)).weights->hold(held), UserError);
     }
+
+    TEST(AdditiveWeights, AreThoseOfKeysBetweenTwoBoundsWithoutASum)
+    {
+      const Body     body;
+      const Examples examples = body.examples(two_poses(WeightRule::additive));
+      const auto    &weights  = *examples.weights;
+      ASSERT_EQ(weights.n_unknown(), 2u); // none of the rest pose
+      EXPECT_EQ(examples.poses->number(0), 1u);
+      EXPECT_EQ(weights.initial(), (std::vector<double>{ 0., 0. }));
+      EXPECT_EQ(weights.weight_form().N.m(), 0u);
+      EXPECT_EQ(weights.weight_form().coupled, (std::vector<unsigned int>{ 0, 1 }));
+      EXPECT_TRUE(weights.missing_sums({ 0.5, 0.75 }).empty());
+      const WeightLimits limits = weights.limits_of_changes({ 0.5, 0.75 });
+      EXPECT_EQ(limits.lower, (std::vector<double>{ -0.5, -0.75 }));
+      EXPECT_EQ(limits.upper, (std::vector<double>{ 0.5, 0.25 }));
+      std::vector<double> some = { 0.1, 0.5 };
+      weights.add({ 0.9 - 1e-16, -0.5 - 1e-17 }, some);
+      EXPECT_EQ(some, (std::vector<double>{ 1., 0. }));
+      EXPECT_TRUE(weights.is_off_bounds(0.5));
+      EXPECT_FALSE(weights.is_off_bounds(0.) || weights.is_off_bounds(1.));
+    }
+
+    TEST(AdditiveWeights, HaveTheQuadraticFormOfTheSimplexWithoutTheRestPose)
+    {
+      const Body     body;
+      const Examples simplex  = body.examples(two_poses(WeightRule::simplex));
+      const Examples additive = body.examples(two_poses(WeightRule::additive));
+      for (unsigned int i = 0; i < 2; ++i)
+        for (unsigned int j = 0; j < 2; ++j)
+          EXPECT_EQ(additive.weights->weight_form().H(i, j),
+                    simplex.weights->weight_form().H(i + 1, j + 1));
+    }
+
+    TEST(AdditiveWeights, TheBestHaveNoResidual)
+    {
+      const Body     body;
+      const Examples examples = body.examples(two_poses(WeightRule::additive));
+      const auto    &H        = examples.weights->weight_form().H;
+      const double   unit     = H(0, 0);
+      // beyond the upper bound, between both, below the lower one
+      for (const double wish : { 1.5, 0.4, -0.2 })
+      {
+        const std::vector<double> c
+            = { H(0, 0) * wish + H(0, 1) * 0.7, H(1, 0) * wish + H(1, 1) * 0.7 };
+        const auto          best = examples.weights->best(c, { 0., 0. });
+        std::vector<double> gradient(2);
+        for (unsigned int i = 0; i < 2; ++i)
+          gradient[i] = H(i, 0) * best[0] + H(i, 1) * best[1] - c[i];
+        const double first = wish > 1. ? 1. : wish < 0. ? 0. : wish;
+        EXPECT_NEAR(best[0], first, 1e-12);
+        if (wish != 0.4)
+        {
+          EXPECT_EQ(best[0], first);
+        }
+        EXPECT_NEAR(best[1], (c[1] - H(1, 0) * first) / H(1, 1), 1e-12);
+        const WeightResidual residual = examples.weights->residual(best, gradient);
+        EXPECT_LT(residual.deviation, 1e-9 * unit);
+        EXPECT_TRUE(residual.multipliers.empty());
+        // a bound does not bear what draws away from it
+        gradient[0] += (wish > 1. ? 1. : -1.) * unit;
+        EXPECT_GT(examples.weights->residual(best, gradient).deviation, 0.3 * unit);
+      }
+    }
+
+    TEST(AdditiveWeights, AreHeldAnywhereBetweenTheirBounds)
+    {
+      const Body                body;
+      const Examples            examples = body.examples(two_poses(WeightRule::additive));
+      const std::vector<double> held     = { 0.9, 0.75 };
+      examples.weights->hold(held);
+      EXPECT_EQ(examples.weights->best({ -1e9, 1e9 }, { 0., 0. }), held);
+      const auto changes = minimize_over_weights(examples.weights->weight_form().H, { 1e9, -1e9 },
+                                                 {}, examples.weights->limits_of_changes(held));
+      EXPECT_EQ(changes.weights, std::vector<double>(2, 0.));
+      for (const std::vector<double> &wrong :
+           std::vector<std::vector<double>>{ { 0.5 }, { -0.1, 0.5 }, { 0.5, 1.1 } })
+        EXPECT_THROW(examples.weights->hold(wrong), UserError);
+    }
   } // namespace
 } // namespace Exemplar::Testing

@@ -30,7 +30,8 @@ namespace Exemplar
                  const unsigned int    weight)
   {
     const unsigned int n = examples.size();
-    return fmt::format("{}_{}", name_of_region(prefix, examples, weight / n), weight % n);
+    return fmt::format("{}_{}", name_of_region(prefix, examples, weight / n),
+                       examples.number(weight % n));
   }
 
   /// Short name of an example: its file without folders and extension, "rest", or "example i".
@@ -38,8 +39,9 @@ namespace Exemplar
   short_name_of_pose(const ExampleTargets &examples, const unsigned int i)
   {
     const std::string &name = examples.name(i);
-    return name.find(';') == std::string::npos ? std::filesystem::path(name).stem().string()
-                                               : fmt::format("example {}", i); // a formula is long
+    return name.find(';') == std::string::npos
+               ? std::filesystem::path(name).stem().string()
+               : fmt::format("example {}", examples.number(i)); // a formula is long
   }
 } // namespace Exemplar
 
