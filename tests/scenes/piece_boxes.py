@@ -6,8 +6,8 @@ from itertools import permutations, product
 
 from exemplar_runner import Msh, write_msh
 
-# From `low` to `high`, in n bricks along each axis; `tag` is the region.
-Box = namedtuple("Box", "low high n tag", defaults=((1, 1, 1), 0))
+# From `low` to `high`, in n bricks along each axis, with nodes moved by `place`.
+Box = namedtuple("Box", "low high n place", defaults=((1, 1, 1), lambda x, y, z: (x, y, z)))
 
 
 def tetrahedra_of(box):
@@ -25,7 +25,8 @@ def tetrahedra_of(box):
                 path.append(number(tuple(corner)))
             odd = sum(order[a] > order[b] for a in range(3) for b in range(a + 1, 3)) % 2
             cells.append([path[0], path[2], path[1], path[3]] if odd else path)
-    return [[low + (high - low) * i / n for low, high, i, n in zip(box.low, box.high, place, box.n)] for place in places], cells
+    straight = [[low + (high - low) * i / n for low, high, i, n in zip(box.low, box.high, place, box.n)] for place in places]
+    return [box.place(*x) for x in straight], cells
 
 
 def write_boxes(file, *boxes):
@@ -35,7 +36,7 @@ def write_boxes(file, *boxes):
         places, of_box = tetrahedra_of(box)
         first = len(nodes)
         for cell in of_box:
-            elements.append((len(elements) + 1, 4, 2, box.tag, 1, *(first + 1 + i for i in cell)))
+            elements.append((len(elements) + 1, 4, 2, 0, 1, *(first + 1 + i for i in cell)))
             cells.append([first + i for i in cell])
         nodes.update({first + 1 + i: tuple(place) for i, place in enumerate(places)})
         owners += [b] * len(places)

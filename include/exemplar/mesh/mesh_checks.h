@@ -2,6 +2,7 @@
 #ifndef exemplar_mesh_checks_h
 #define exemplar_mesh_checks_h
 
+#include <exemplar/mesh/mesh_arrays.h>
 #include <exemplar/mesh/msh_file.h>
 
 #include <array>
