@@ -21,6 +21,7 @@ namespace Exemplar
   /// each other by what `reach` is more than asked for, all that are asked for are among them.
   struct KeptBodyPairs
   {
+    /// A pair that was near, and from where it pushes.
     struct Candidate
     {
       BodyPair pair;
