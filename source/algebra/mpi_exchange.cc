@@ -169,6 +169,8 @@ namespace Exemplar
   void
   MpiExchange::exchange_field(Number *field, const unsigned int n, const bool add_first) const
   {
+    if (n_shared == 0) // pieces of the body, each in one process
+      return;
     const Partitioner       &with = partitioner(n);
     std::vector<Number>      of_owned(n * shared_owned.size()), of_others(n * others.size());
     std::vector<Number>      buffer(with.n_import_indices());

@@ -57,6 +57,16 @@ namespace Exemplar
   }
 
   std::vector<unsigned int>
+  NodeNumbering::pieces() const
+  {
+    std::vector<unsigned int> of_nodes(n_nodes(), 0);
+    for (unsigned int cell = 0; mesh.n_pieces() > 1 && cell < mesh.n_cells(); ++cell)
+      for (const unsigned int node : of_cell(cell))
+        of_nodes[node] = mesh.piece_of(cell);
+    return of_nodes;
+  }
+
+  std::vector<unsigned int>
   NodeNumbering::with_middles(std::vector<unsigned int> vertices) const
   {
     if (edges.empty())

@@ -82,30 +82,57 @@ namespace Exemplar
     }
   } // namespace
 
-  unsigned int
+  namespace
+  {
+    /// The same of nodes about a center, of which some degrees of freedom are held; lengths are in diameters.
+    unsigned int
+    n_free_rigid_motions(const std::vector<dealii::Point<3>> &nodes,
+                         const dealii::Point<3>              &center,
+                         const double                         diameter,
+                         const std::vector<unsigned int>     &held)
+    {
+      // rows: the values of the six rigid motions at a held degree of freedom
+      dealii::FullMatrix<double> motions(held.size(), 6);
+      for (unsigned int row = 0; row < held.size(); ++row)
+      {
+        const unsigned int         node = held[row] / 3, c = held[row] % 3;
+        const unsigned int         d = (c + 1) % 3, e = (c + 2) % 3;
+        const dealii::Tensor<1, 3> r = (nodes[node] - center) / diameter;
+        motions(row, c)              = 1.;
+        motions(row, 3 + d)          = r[e]; // (omega x r)_c = omega_d r_e - omega_e r_d
+        motions(row, 3 + e)          = -r[d];
+      }
+      return 6 - rank(motions, 1e-8);
+    }
+  } // namespace
+
+  std::vector<unsigned int>
   n_free_rigid_motions(const Mesh                      &mesh,
-                       const dealii::Vector<double>    &rest_positions,
+                       const FESpace                   &fe_space,
                        const std::vector<unsigned int> &held_dofs)
   {
-    // rows: the values of the six rigid motions at a held degree of freedom, with lengths in
-    // diameters
     const Exchange                     &exchange = mesh.exchange();
-    const std::vector<dealii::Point<3>> nodes    = nodes_of(whole(exchange, rest_positions, true));
-    const std::vector<unsigned int>     held = in_whole(exchange, rest_positions.size(), held_dofs);
-    const dealii::Point<3>              center
-        = centroid({ nodes.begin(), nodes.begin() + mesh.whole().n_nodes });
-    const double               diameter = mesh.diameter();
-    dealii::FullMatrix<double> motions(held.size(), 6);
-    for (unsigned int row = 0; row < held.size(); ++row)
+    const auto                         &rest     = fe_space.rest_positions();
+    const std::vector<dealii::Point<3>> nodes    = nodes_of(whole(exchange, rest, true));
+    const std::vector<unsigned int>     held     = in_whole(exchange, rest.size(), held_dofs);
+    const std::vector<unsigned int>     own      = fe_space.numbering().pieces();
+    const std::vector<double>           own_numbers(own.begin(), own.end());
+    const std::vector<double>           pieces
+        = exchange.whole(own_numbers.data(), 1, own_numbers.size(), true);
+    std::vector<unsigned int> n_free;
+    for (unsigned int piece = 0; piece < mesh.n_pieces(); ++piece)
     {
-      const unsigned int         node = held[row] / 3, c = held[row] % 3;
-      const unsigned int         d = (c + 1) % 3, e = (c + 2) % 3;
-      const dealii::Tensor<1, 3> r = (nodes[node] - center) / diameter;
-      motions(row, c)              = 1.;
-      motions(row, 3 + d)          = r[e]; // (omega x r)_c = omega_d r_e - omega_e r_d
-      motions(row, 3 + e)          = -r[d];
+      std::vector<dealii::Point<3>> vertices;
+      std::vector<unsigned int>     of_piece;
+      for (unsigned int node = 0; node < mesh.whole().n_nodes; ++node)
+        if (pieces[node] == piece)
+          vertices.push_back(nodes[node]);
+      for (const unsigned int dof : held)
+        if (pieces[dof / 3] == piece)
+          of_piece.push_back(dof);
+      n_free.push_back(n_free_rigid_motions(nodes, centroid(vertices), mesh.diameter(), of_piece));
     }
-    return 6 - rank(motions, 1e-8);
+    return n_free;
   }
 
   StaticallyDeterminateSupport

@@ -206,7 +206,8 @@ namespace Exemplar
       part.whole = { static_cast<unsigned int>(arrays.contents.nodes.size()),
                      n_cells,
                      box_diagonal(arrays.contents.nodes),
-                     { arrays.material_ids.begin(), arrays.material_ids.end() } };
+                     { arrays.material_ids.begin(), arrays.material_ids.end() },
+                     std::move(arrays.pieces) };
       part.cells_in_file.resize(n_cells);
       std::iota(part.cells_in_file.begin(), part.cells_in_file.end(), 0u);
       part.arrays = std::move(arrays);
@@ -272,7 +273,7 @@ namespace Exemplar
     const std::vector<CellFace> faces = sorted_faces(tetrahedra);
     check_faces(contents, name, tetrahedra, faces);
     check_overlaps(contents, name, tetrahedra, faces, swapped);
-    check_connected(contents, name, tetrahedra, faces);
+    mesh.pieces = find_pieces(contents, name, tetrahedra, faces);
 
     BoundaryIds boundary_ids(faces);
     for (const MshElement &element : contents.elements)

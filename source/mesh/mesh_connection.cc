@@ -8,7 +8,7 @@
 #include <numeric>
 #include <optional>
 
-// check_connected(), and its messages about bodies in several pieces.
+// find_pieces(), and its message about pieces that touch.
 
 namespace Exemplar
 {
@@ -77,8 +77,13 @@ namespace Exemplar
       return false;
     }
 
-    std::string
-    describe_contact(const MshFile &contents, const Tetrahedra &tetrahedra, Components &parts)
+    /// Throws UserError where pieces have nodes in common.
+    void
+    refuse_hinges(const MshFile     &contents,
+                  const std::string &name,
+                  const Tetrahedra  &tetrahedra,
+                  const MeshPieces  &pieces,
+                  Components        &parts)
     {
       const std::vector<bool>  shared = find_shared_nodes(contents.nodes.size(), tetrahedra, parts);
       std::vector<std::size_t> numbers;
@@ -86,18 +91,21 @@ namespace Exemplar
         if (shared[node])
           numbers.push_back(contents.node_numbers[node]);
       if (numbers.empty())
-        return "They have no node in common.";
-      return std::string("Parts touch only at ")
-             + (share_an_edge(shared, tetrahedra, parts) ? "an edge" : "a node")
-             + ", like a hinge: node " + list_numbers(numbers) + ".";
+        return;
+      throw UserError(fmt::format(
+          "{}: has {} parts that no common face connects, beginning with element {}. Parts touch "
+          "only at {}, like a hinge: node {}. Join the volumes in the geometry (BooleanUnion, or "
+          "BooleanFragments and Coherence), keep one of them, or give each nodes of its own.",
+          name, pieces.first_elements.size(), list_numbers(pieces.first_elements),
+          share_an_edge(shared, tetrahedra, parts) ? "an edge" : "a node", list_numbers(numbers)));
     }
   } // namespace
 
-  void
-  check_connected(const MshFile               &contents,
-                  const std::string           &name,
-                  const Tetrahedra            &tetrahedra,
-                  const std::vector<CellFace> &faces)
+  MeshPieces
+  find_pieces(const MshFile               &contents,
+              const std::string           &name,
+              const Tetrahedra            &tetrahedra,
+              const std::vector<CellFace> &faces)
   {
     const auto n_cells = static_cast<unsigned int>(tetrahedra.nodes.size());
     Components parts(n_cells);
@@ -105,17 +113,20 @@ namespace Exemplar
       if (faces[i].nodes == faces[i - 1].nodes)
         parts.join(faces[i].cell, faces[i - 1].cell);
 
-    std::vector<std::size_t> first_elements; // one of each component
+    MeshPieces                pieces;
+    std::vector<unsigned int> numbers(n_cells); // of the piece that a cell is the root of
     for (unsigned int cell = 0; cell < n_cells; ++cell)
-      if (parts.root(cell) == cell)
-        first_elements.push_back(tetrahedra.element_numbers[cell]);
-    if (first_elements.size() == 1)
-      return;
-    throw UserError(
-        fmt::format("{}: has {} parts that no common face connects, beginning with element {}. {} "
-                    "A body must be in one piece: join the volumes in the geometry (BooleanUnion, "
-                    "or BooleanFragments and Coherence), or keep one of them.",
-                    name, first_elements.size(), list_numbers(first_elements),
-                    describe_contact(contents, tetrahedra, parts)));
+    {
+      if (parts.root(cell) == cell) // no cell before it is of this piece
+      {
+        numbers[cell] = pieces.first_elements.size();
+        pieces.first_elements.push_back(tetrahedra.element_numbers[cell]);
+      }
+      pieces.of_cells.push_back(numbers[parts.root(cell)]);
+    }
+    if (pieces.first_elements.size() == 1)
+      return {};
+    refuse_hinges(contents, name, tetrahedra, pieces, parts);
+    return pieces;
   }
 } // namespace Exemplar

@@ -96,7 +96,10 @@ namespace Exemplar
         result.dv[free++] = x[1] - x[0];
       }
       if (t > 0. && t < 1.)
+      {
+        result.db[free]   = { { -1., 1., 0. } };
         result.dv[free++] = q[0] - q[1];
+      }
       result.n_free = free;
       return result;
     }
@@ -140,7 +143,7 @@ namespace Exemplar
     Nearest result = of;
     result.way *= -1.;
     std::swap(result.a, result.b);
-    result.da = {};
+    std::swap(result.da, result.db);
     for (SpaceVector3 &derivative : result.dv)
       derivative *= -1.;
     return result;

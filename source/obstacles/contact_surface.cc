@@ -81,6 +81,10 @@ namespace Exemplar
       edges.push_back({ ends, square });
     for (const auto &[node, area] : areas)
       nodes.push_back({ node, area });
+    for (const Triangle &triangle : triangles)
+      for (unsigned int k = 0; k < 3; ++k)
+        edges[number_of_edge(triangle.nodes[k], triangle.nodes[(k + 1) % 3])].area
+            += triangle.area / 3.;
   }
 
   void
@@ -95,16 +99,17 @@ namespace Exemplar
       triangle.share = material.youngs_modulus(triangle.cell) * triangle.area;
       for (unsigned int k = 0; k < 3; ++k)
       {
-        edges[edge_of(triangle, k)].share += triangle.share / 3.;
-        nodes[node_of(triangle, k)].share += triangle.share / 3.;
+        edges[number_of_edge(triangle.nodes[k], triangle.nodes[(k + 1) % 3])].share
+            += triangle.share / 3.;
+        nodes[number_of_node(triangle.nodes[k])].share += triangle.share / 3.;
       }
     }
   }
 
   unsigned int
-  ContactSurface::edge_of(const Triangle &triangle, const unsigned int k) const
+  ContactSurface::number_of_edge(const unsigned int node, const unsigned int other) const
   {
-    const auto [i, j] = std::minmax(triangle.nodes[k], triangle.nodes[(k + 1) % 3]);
+    const auto [i, j] = std::minmax(node, other);
     const std::array<unsigned int, 2> ends{ { i, j } };
     return std::lower_bound(edges.begin(), edges.end(), ends,
                             [](const Edge &edge, const auto &key) { return edge.nodes < key; })
@@ -112,11 +117,10 @@ namespace Exemplar
   }
 
   unsigned int
-  ContactSurface::node_of(const Triangle &triangle, const unsigned int k) const
+  ContactSurface::number_of_node(const unsigned int node) const
   {
-    return std::lower_bound(nodes.begin(), nodes.end(), triangle.nodes[k],
-                            [](const Node &node, const unsigned int key)
-                            { return node.node < key; })
+    return std::lower_bound(nodes.begin(), nodes.end(), node,
+                            [](const Node &at, const unsigned int key) { return at.node < key; })
            - nodes.begin();
   }
 
@@ -144,8 +148,9 @@ namespace Exemplar
       const Triangle &triangle = triangles[t];
       double          by_share = by_shares.triangles[t];
       for (unsigned int k = 0; k < 3; ++k)
-        by_share
-            += (by_shares.edges[edge_of(triangle, k)] + by_shares.nodes[node_of(triangle, k)]) / 3.;
+        by_share += (by_shares.edges[number_of_edge(triangle.nodes[k], triangle.nodes[(k + 1) % 3])]
+                     + by_shares.nodes[number_of_node(triangle.nodes[k])])
+                    / 3.;
       if (by_share == 0.)
         continue;
       by_young[triangle.cell] += by_share * triangle.area;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/obstacles/contact_parameters.h>
 #include <exemplar/obstacles/obstacle_parameters.h>
 #include <exemplar/obstacles/obstacle_shape.h>
 #include <exemplar/prm/key_table.h>
@@ -142,18 +143,6 @@ namespace Exemplar
              "of 1e-6 of Young's modulus times its diameter.");
   }
 
-  namespace
-  {
-    /// Throws UserError unless the text is auto or a positive number.
-    void
-    check_length(const std::string &text, const std::string &key, const std::string &unit)
-    {
-      if (text != "auto" && !(parse_number(text) > 0. && std::isfinite(parse_number(text))))
-        throw UserError(key + " = '" + text
-                        + "' is not allowed. Allowed: auto, or a positive number [" + unit + "].");
-    }
-  } // namespace
-
   void
   ObstaclesParameters::check() const
   {
@@ -176,16 +165,7 @@ namespace Exemplar
   double
   ObstaclesParameters::distance_of(const double diameter) const
   {
-    if (distance == "auto")
-      return 5e-3 * diameter;
-    const double given = parse_number(distance), least = 1e-6 * diameter, greatest = 0.1 * diameter;
-    if (given < least || given > greatest)
-      throw UserError("Obstacles/Distance = " + distance + " m is "
-                      + (given < least ? "below a millionth" : "above a tenth")
-                      + " of the body's diameter of " + short_text(diameter)
-                      + " m. Take a number between " + short_text(least) + " and "
-                      + short_text(greatest) + ", or auto.");
-    return given;
+    return contact_distance(distance, "Obstacles/Distance", diameter);
   }
 
   double

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/potential/barrier.h>
 #include <exemplar/potential/contact_forces.h>
+#include <exemplar/potential/nodal_vectors.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 namespace Exemplar
 {
@@ -13,36 +17,38 @@ namespace Exemplar
   {
     /// With all of its stiffness.
     Barrier
-    full_barrier(const Contact &contact)
+    full_barrier(const Touch &touch)
     {
-      return { contact.full_stiffness, contact.gap.width };
+      return { touch.full_stiffness, touch.gap.width };
     }
 
-    /// By the vector of the body's edge and its two nodes.
-    constexpr std::array<double, 3> signs_of_edge{ { -1., 1., 0. } };
+    /// The edge of a node of two edges, and the derivative of its vector by the node.
+    constexpr std::array<unsigned int, 4> edges_of_nodes{ { 0, 0, 1, 1 } };
+    constexpr std::array<double, 4>       signs_of_nodes{ { -1., 1., -1., 1. } };
   } // namespace
 
   double
-  energy_of(const Contact &contact)
+  energy_of(const Touch &touch)
   {
-    const double full = full_barrier(contact).value(contact.gap.distance);
-    return contact.m == 0. && contact.gap.distance > 0. ? 0.
-           : contact.m == 1.                            ? full
-                                                        : contact.m * full;
+    const double full = full_barrier(touch).value(touch.gap.distance);
+    return touch.part.m == 0. && touch.gap.distance > 0. ? 0.
+           : touch.part.m == 1.                          ? full
+                                                         : touch.part.m * full;
   }
 
   ContactGradient
-  gradient_of(const Contact &contact)
+  gradient_of(const Touch &touch)
   {
-    const Barrier   barrier = full_barrier(contact);
-    const Gap      &gap     = contact.gap;
-    const double    slope   = contact.m * barrier.slope(gap.distance);
+    const Barrier   barrier = full_barrier(touch);
+    const Gap      &gap     = touch.gap;
+    const double    slope   = touch.part.m * barrier.slope(gap.distance);
     ContactGradient result;
     for (unsigned int i = 0; i < gap.n_nodes; ++i)
       result[i] = slope * gap.coefficients[i] * gap.normal;
-    if (contact.m < 1.)
-      for (unsigned int i = 0; i < 2; ++i)
-        result[i] += signs_of_edge[i] * barrier.value(gap.distance) * contact.by_edge;
+    if (touch.part.m < 1.)
+      for (unsigned int i = 0; i < gap.n_nodes; ++i)
+        result[i]
+            += signs_of_nodes[i] * barrier.value(gap.distance) * touch.part.by[edges_of_nodes[i]];
     return result;
   }
 
@@ -73,30 +79,30 @@ namespace Exemplar
     /// The second derivative of the distance: that of the least square over the free parameters, of which that of
     /// its root follows.
     ContactHessian
-    curvature_of_distance(const Contact &contact)
+    curvature_of_distance(const Touch &touch)
     {
       ContactHessian result;
-      const Nearest &at     = contact.at.nearest;
+      const Nearest &at     = touch.at.nearest;
       const double   length = at.way.norm();
-      const unsigned n      = contact.gap.n_nodes;
-      if (contact.at.is_flat || length == 0.)
+      const unsigned n      = touch.gap.n_nodes;
+      const auto    &c      = touch.gap.coefficients;
+      if (touch.at.is_flat || length == 0.)
         return result;
       const dealii::Tensor<2, 2>                 inverse = inverse_of_free(at);
-      std::array<std::array<SpaceVector3, 2>, 3> mixed; // d^2 (v^2/2) / dx dtheta
+      std::array<std::array<SpaceVector3, 2>, 4> mixed; // d^2 (v^2/2) / dx dtheta
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int k = 0; k < at.n_free; ++k)
-          mixed[i][k] = at.a[i] * at.dv[k] + at.da[k][i] * at.way;
+          mixed[i][k] = c[i] * at.dv[k] + touch.by_free[k][i] * at.way;
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
         {
           dealii::Tensor<2, 3> &block = result[i][j];
-          for (unsigned int c = 0; c < 3; ++c)
-            block[c][c] = at.a[i] * at.a[j];
+          for (unsigned int d = 0; d < 3; ++d)
+            block[d][d] = c[i] * c[j];
           for (unsigned int k = 0; k < at.n_free; ++k)
             for (unsigned int l = 0; l < at.n_free; ++l)
               block -= inverse[k][l] * dealii::outer_product(mixed[i][k], mixed[j][l]);
-          block
-              -= at.a[i] * at.a[j] * dealii::outer_product(contact.gap.normal, contact.gap.normal);
+          block -= c[i] * c[j] * dealii::outer_product(touch.gap.normal, touch.gap.normal);
           block /= length;
         }
       return result;
@@ -107,10 +113,10 @@ namespace Exemplar
   {
     /// Without the curvature of the distance, which a barrier counts the other way round where the distance is convex.
     ContactHessian
-    hessian_along_normal(const Contact &contact)
+    hessian_along_normal(const Touch &touch)
     {
-      const Gap     &gap       = contact.gap;
-      const double   curvature = contact.m * full_barrier(contact).curvature(gap.distance);
+      const Gap     &gap       = touch.gap;
+      const double   curvature = touch.part.m * full_barrier(touch).curvature(gap.distance);
       const auto     n_n       = dealii::outer_product(gap.normal, gap.normal);
       ContactHessian result;
       for (unsigned int i = 0; i < gap.n_nodes; ++i)
@@ -120,25 +126,27 @@ namespace Exemplar
     }
 
     ContactHessian
-    exact_hessian(const Contact &contact)
+    exact_hessian(const Touch &touch)
     {
-      const Barrier  barrier = full_barrier(contact);
-      const Gap     &gap     = contact.gap;
+      const Barrier  barrier = full_barrier(touch);
+      const Gap     &gap     = touch.gap;
       const double   d = gap.distance, slope = barrier.slope(d);
-      ContactHessian result      = hessian_along_normal(contact),
-                     of_distance = curvature_of_distance(contact);
+      ContactHessian result      = hessian_along_normal(touch),
+                     of_distance = curvature_of_distance(touch);
       for (unsigned int i = 0; i < gap.n_nodes; ++i)
         for (unsigned int j = 0; j < gap.n_nodes; ++j)
         {
-          result[i][j] += contact.m * slope * of_distance[i][j];
-          if (contact.m == 1.)
+          result[i][j] += touch.part.m * slope * of_distance[i][j];
+          if (touch.part.m == 1.)
             continue;
-          const double c_i = gap.coefficients[i], c_j = gap.coefficients[j];
-          const double s_i = signs_of_edge[i], s_j = signs_of_edge[j];
-          result[i][j] += slope
-                              * (c_i * s_j * dealii::outer_product(gap.normal, contact.by_edge)
-                                 + s_i * c_j * dealii::outer_product(contact.by_edge, gap.normal))
-                          + barrier.value(d) * s_i * s_j * contact.by_edge_twice;
+          const double       c_i = gap.coefficients[i], c_j = gap.coefficients[j];
+          const double       s_i = signs_of_nodes[i], s_j = signs_of_nodes[j];
+          const unsigned int e_i = edges_of_nodes[i], e_j = edges_of_nodes[j];
+          result[i][j]
+              += slope
+                     * (c_i * s_j * dealii::outer_product(gap.normal, touch.part.by[e_j])
+                        + s_i * c_j * dealii::outer_product(touch.part.by[e_i], gap.normal))
+                 + barrier.value(d) * s_i * s_j * touch.part.twice[e_i][e_j];
         }
       return result;
     }
@@ -167,16 +175,90 @@ namespace Exemplar
   } // namespace
 
   ContactHessian
-  hessian_of(const Contact &contact, const Tangent kind)
+  hessian_of(const Touch &touch, const Tangent kind)
   {
     // the distance of a node from what is convex, as from all parts of an obstacle, is convex: nothing of it is left
-    const bool is_of_node = contact.gap.n_nodes == 1;
+    const bool is_of_node = touch.gap.n_nodes == 1;
     if (kind == Tangent::convex && is_of_node)
-      return hessian_along_normal(contact);
-    ContactHessian result = exact_hessian(contact);
+      return hessian_along_normal(touch);
+    ContactHessian result = exact_hessian(touch);
     if (kind == Tangent::convex)
-      project(result, contact.gap.n_nodes);
+      project(result, touch.gap.n_nodes);
     return result;
+  }
+
+  void
+  add_blocks(const Gap              &gap,
+             const ContactHessian   &blocks,
+             const SymmetricPattern &pattern,
+             const FreeDofs         &free_dofs,
+             std::vector<double>    &values)
+  {
+    for (unsigned int i = 0; i < gap.n_nodes; ++i)
+      for (unsigned int j = 0; j < gap.n_nodes; ++j)
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = 0; b < 3; ++b)
+          {
+            const int row    = free_dofs.free_index(3 * gap.nodes[i] + a);
+            const int column = free_dofs.free_index(3 * gap.nodes[j] + b);
+            if (row != FreeDofs::held && column != FreeDofs::held && row >= column)
+              values[pattern.position(row, column)] += blocks[i][j][a][b];
+          }
+  }
+
+  void
+  add_products(const Gap            &gap,
+               const ContactHessian &blocks,
+               const Vector         &displacement,
+               Vector               &field)
+  {
+    for (unsigned int i = 0; i < gap.n_nodes; ++i)
+      for (unsigned int j = 0; j < gap.n_nodes; ++j)
+        add_to(field, gap.nodes[i], blocks[i][j] * at_node(displacement, gap.nodes[j]));
+  }
+
+  double
+  rounding_force_of(const std::vector<Gap> &gaps, const Vector &positions)
+  {
+    if (gaps.empty())
+      return 0.;
+    // both points of a gap are rounded
+    const double of_distance = 4. * std::numeric_limits<double>::epsilon()
+                               * max_entry(positions.begin(), positions.end());
+    // nearer the whole force is rounding, and nothing is solved
+    const double        least_distance = 1e4 * of_distance;
+    std::vector<double> squares(positions.size() / 3);
+    for (const Gap &gap : gaps)
+      if (gap.distance > least_distance)
+      {
+        const double force
+            = of_distance * Barrier{ gap.stiffness, gap.width }.curvature(gap.distance);
+        for (unsigned int i = 0; i < gap.n_nodes; ++i)
+          squares[gap.nodes[i]] += std::pow(gap.coefficients[i] * force, 2);
+      }
+    return std::sqrt(max_entry(squares));
+  }
+
+  std::pair<double, double>
+  force_and_change_of(const std::vector<Rubbing> &now, const std::vector<Rubbing> &before)
+  {
+    double     greatest = 0., change = 0.;
+    auto       old        = before.begin();
+    const auto is_earlier = [](const Rubbing &a, const Rubbing &b)
+    { return std::tie(a.obstacle, a.key) < std::tie(b.obstacle, b.key); };
+    for (const Rubbing &at : now)
+    {
+      for (; old != before.end() && is_earlier(*old, at); ++old)
+        change = std::max(change, old->force);
+      const bool is_old = old != before.end() && !is_earlier(at, *old);
+      greatest          = std::max(greatest, at.force);
+      change            = std::max(change, std::abs(at.force - (is_old ? old->force : 0.)));
+      if (is_old)
+        ++old;
+    }
+    for (; old != before.end(); ++old)
+      change = std::max(change, old->force);
+    return { greatest, change };
   }
 
   double

@@ -8,15 +8,6 @@ namespace Exemplar
 {
   namespace
   {
-    /// Edges are almost parallel where the square of sin of their angle, at rest lengths, is below this.
-    constexpr double parallel = 1e-3;
-
-    /// The part of a gap that a step leaves, at least.
-    constexpr double part_left = 0.1;
-
-    /// Of additive advancement, which takes 157 to 314 rounds at most in random pairs.
-    constexpr unsigned int max_advances = 1000;
-
     /// Of an obstacle in one go, so that its way in space is almost straight [rad].
     constexpr double greatest_turn_at_once = 0.0873;
 
@@ -240,7 +231,10 @@ namespace Exemplar
                          const PairCorners  &x,
                          const PairDistance &at) const
   {
-    Contact                     result{ number, pair, {}, at, 0., 1., {}, {}, {} };
+    Contact result;
+    result.obstacle                   = number;
+    result.pair                       = pair;
+    result.at                         = at;
     double                      share = 0.;
     const dealii::Tensor<2, 3> &R     = standing.pose.rotation;
     if (pair.kind == PairKind::edge_edge)
@@ -249,21 +243,8 @@ namespace Exemplar
       share                            = edge.share;
       const auto        &other         = standing.shape().edges[pair.of_obstacle];
       const SpaceVector3 e             = R * (x.places[1] - x.places[0]);
-      const SpaceVector3 f      = R * (standing.vertices[other[1]] - standing.vertices[other[0]]);
-      const double       square = dealii::cross_product_3d(e, f).norm_square();
-      const double       full   = parallel * edge.square * f.norm_square();
-      if (square < full)
-      {
-        const double       part         = square / full;
-        const SpaceVector3 by_e         = 2. / full * (f.norm_square() * e - (e * f) * f);
-        result.m                        = part * (2. - part);
-        result.by_edge                  = 2. * (1. - part) * by_e;
-        dealii::Tensor<2, 3> by_e_twice = -dealii::outer_product(f, f);
-        for (unsigned int c = 0; c < 3; ++c)
-          by_e_twice[c][c] += f.norm_square();
-        result.by_edge_twice
-            = 4. * (1. - part) / full * by_e_twice - 2. * dealii::outer_product(by_e, by_e);
-      }
+      const SpaceVector3 f = R * (standing.vertices[other[1]] - standing.vertices[other[0]]);
+      result.part          = edge_part(e, f, edge.square, f.norm_square());
     }
     else if (pair.kind == PairKind::triangle_point)
       share = surface.triangles[pair.of_body].share;
@@ -278,13 +259,15 @@ namespace Exemplar
     gap.n_nodes   = x.n;
     gap.normal    = result.at.normal;
     gap.distance  = at.distance;
-    gap.stiffness = result.m * result.full_stiffness;
+    gap.stiffness = result.part.m * result.full_stiffness;
     gap.width     = width(pair);
     SpaceVector3 point;
     for (unsigned int i = 0; i < x.n; ++i)
     {
       gap.nodes[i]        = x.nodes[i];
       gap.coefficients[i] = at.nearest.a[i];
+      for (unsigned int k = 0; k < 2; ++k)
+        result.by_free[k][i] = at.nearest.da[k][i];
       point += at.nearest.a[i] * x.places[i];
     }
     result.of_obstacle = standing.pose.to_space(point - at.distance * at.normal);
@@ -331,25 +314,14 @@ namespace Exemplar
     for (unsigned int i = 0; i < n; ++i)
       speed = std::max(speed, way[i].norm());
     speed += own_way;
-    // additive: nothing is passed on a way that is shorter than the distance
-    if (!(speed * longest > at.distance - left))
-      return longest;
-    if (!(at.distance > 0.))
-      return 0.;
-    double part = (at.distance - left) / speed, tried = part;
-    for (unsigned int round = 0; round < max_advances; ++round)
-    {
-      tried = std::min(tried, longest);
-      std::array<SpaceVector3, 3> moved;
-      for (unsigned int i = 0; i < n; ++i)
-        moved[i] = x[i] + tried * way[i];
-      const double now = distance(pair, moved).distance - tried * own_way;
-      if (!(now >= left) || tried == longest)
-        return now >= left ? longest : part;
-      part  = tried;
-      tried = part + (1. - part_left) * now / speed;
-    }
-    return part;
+    return advance_to(at.distance, left, speed, longest,
+                      [&](const double part)
+                      {
+                        std::array<SpaceVector3, 3> moved;
+                        for (unsigned int i = 0; i < n; ++i)
+                          moved[i] = x[i] + part * way[i];
+                        return distance(pair, moved).distance - part * own_way;
+                      });
   }
 
   namespace

@@ -14,12 +14,12 @@ namespace Exemplar
     {
       explicit PartialEdge(const Contact &contact)
       {
-        if (contact.m == 1.)
+        if (contact.part.m == 1.)
           return;
         // m = p (2 - p), and p goes with the inverse of the square
-        const double p = contact.m / (1. + std::sqrt(1. - contact.m));
+        const double p = contact.part.m / (1. + std::sqrt(1. - contact.part.m));
         m              = -2. * (1. - p) * p;
-        by_edge        = (2. * p - 1.) / (1. - p) * contact.by_edge;
+        by_edge        = (2. * p - 1.) / (1. - p) * contact.part.by[0];
       }
 
       double       m = 0.;
@@ -50,17 +50,19 @@ namespace Exemplar
     const Barrier        unit{ 1., gap.width };
     const PartialEdge    partial(contact);
     const double         closing = gap.normal * sum(gap, along);
-    const SpaceVector3   turning = contact.m < 1. ? along[1] - along[0] : SpaceVector3();
-    const double         m_along = contact.by_edge * turning;
+    const SpaceVector3   turning = contact.part.m < 1. ? along[1] - along[0] : SpaceVector3();
+    const double         m_along = contact.part.by[0] * turning;
     const ContactHessian hessian = hessian_of(contact, Tangent::exact);
     ContactSlope         result;
     for (unsigned int i = 0; i < gap.n_nodes; ++i)
       for (unsigned int j = 0; j < gap.n_nodes; ++j)
         result.by_positions[i] += hessian[i][j] * along[j];
-    result.by_stiffness = contact.m * unit.slope(d) * closing + unit.value(d) * m_along;
+    result.by_stiffness = contact.part.m * unit.slope(d) * closing + unit.value(d) * m_along;
     result.by_width
-        = k * (contact.m * unit.slope_by_width(d) * closing + unit.value_by_width(d) * m_along);
-    result.by_distance = k * (contact.m * unit.curvature(d) * closing + unit.slope(d) * m_along);
+        = k
+          * (contact.part.m * unit.slope_by_width(d) * closing + unit.value_by_width(d) * m_along);
+    result.by_distance
+        = k * (contact.part.m * unit.curvature(d) * closing + unit.slope(d) * m_along);
     result.by_square
         = k * (partial.m * unit.slope(d) * closing + unit.value(d) * (partial.by_edge * turning));
     return result;
@@ -73,7 +75,7 @@ namespace Exemplar
     {
       double                distance = 0., m = 0.;
       SpaceVector3          normal;
-      std::array<double, 3> coefficients{};
+      std::array<double, 4> coefficients{};
     };
 
     /// Chain rule: add its derivatives by the positions.
@@ -84,10 +86,10 @@ namespace Exemplar
       const Nearest &at  = contact.at.nearest;
       for (unsigned int j = 0; j < gap.n_nodes; ++j)
         by_positions[j] += by.distance * gap.coefficients[j] * gap.normal;
-      if (contact.m < 1.)
+      if (contact.part.m < 1.)
       {
-        by_positions[0] -= by.m * contact.by_edge;
-        by_positions[1] += by.m * contact.by_edge;
+        by_positions[0] -= by.m * contact.part.by[0];
+        by_positions[1] += by.m * contact.part.by[0];
       }
       if (contact.at.is_flat)
         return;
@@ -134,7 +136,7 @@ namespace Exemplar
     const double by_force
         = coefficient * SlipEnergy{ 1., energy.e }.force_by_slip(u.norm()) * (u * a);
     ByContact by;
-    by.distance = -by_force * contact.m * k * unit.curvature(d) - by_point * n;
+    by.distance = -by_force * contact.part.m * k * unit.curvature(d) - by_point * n;
     by.m        = -by_force * k * unit.slope(d);
     by.normal   = -(n * z) * by_u - (n * by_u) * z - d * by_point;
     for (unsigned int i = 0; i < gap.n_nodes; ++i)
@@ -146,8 +148,8 @@ namespace Exemplar
     }
     carry(contact, by, slope.by_positions);
     slope.by_distance += by.distance;
-    slope.by_stiffness -= by_force * contact.m * unit.slope(d);
-    slope.by_width -= by_force * contact.m * k * unit.slope_by_width(d);
+    slope.by_stiffness -= by_force * contact.part.m * unit.slope(d);
+    slope.by_width -= by_force * contact.part.m * k * unit.slope_by_width(d);
     slope.by_square += by.m * PartialEdge(contact).m;
     slope.by_coefficient += value / coefficient;
   }

@@ -73,39 +73,13 @@ namespace Exemplar
     return result;
   }
 
-  namespace
-  {
-    /// The greatest force, and the greatest difference to a sorted list of earlier ones.
-    std::pair<double, double>
-    force_and_change(const std::vector<Rubbing> &now, const std::vector<Rubbing> &before)
-    {
-      double     greatest = 0., change = 0.;
-      auto       old        = before.begin();
-      const auto is_earlier = [](const Rubbing &a, const Rubbing &b)
-      { return std::tie(a.obstacle, a.key) < std::tie(b.obstacle, b.key); };
-      for (const Rubbing &at : now)
-      {
-        for (; old != before.end() && is_earlier(*old, at); ++old)
-          change = std::max(change, old->force);
-        const bool is_old = old != before.end() && !is_earlier(at, *old);
-        greatest          = std::max(greatest, at.force);
-        change            = std::max(change, std::abs(at.force - (is_old ? old->force : 0.)));
-        if (is_old)
-          ++old;
-      }
-      for (; old != before.end(); ++old)
-        change = std::max(change, old->force);
-      return { greatest, change };
-    }
-  } // namespace
-
   TermChange
   ObstacleTerm::renew(const TermPoint &at)
   {
     if (!have_friction || !step.has_begun || step.n_renewals > max_renewals)
       return TermChange::none;
     std::vector<Rubbing> fresh            = rubbing_at(at.positions);
-    const auto [own_greatest, own_change] = force_and_change(fresh, step.rubbing);
+    const auto [own_greatest, own_change] = force_and_change_of(fresh, step.rubbing);
     const double greatest                 = free_dofs->exchange().max(own_greatest);
     const double change                   = free_dofs->exchange().max(own_change);
     // where a step begins nothing may push yet

@@ -340,18 +340,7 @@ namespace Exemplar
   {
     visit_blocks(at.positions, kind,
                  [&](const Gap &gap, const ContactHessian &blocks)
-                 {
-                   for (unsigned int i = 0; i < gap.n_nodes; ++i)
-                     for (unsigned int j = 0; j < gap.n_nodes; ++j)
-                       for (unsigned int a = 0; a < 3; ++a)
-                         for (unsigned int b = 0; b < 3; ++b)
-                         {
-                           const int row    = free_dofs->free_index(3 * gap.nodes[i] + a);
-                           const int column = free_dofs->free_index(3 * gap.nodes[j] + b);
-                           if (row != FreeDofs::held && column != FreeDofs::held && row >= column)
-                             values[pattern->position(row, column)] += blocks[i][j][a][b];
-                         }
-                 });
+                 { add_blocks(gap, blocks, *pattern, *free_dofs, values); });
     if (springs)
       springs->add_tangent(values);
   }
@@ -364,12 +353,7 @@ namespace Exemplar
   {
     visit_blocks(at.positions, kind,
                  [&](const Gap &gap, const ContactHessian &blocks)
-                 {
-                   for (unsigned int i = 0; i < gap.n_nodes; ++i)
-                     for (unsigned int j = 0; j < gap.n_nodes; ++j)
-                       add_to(sums->gradient, gap.nodes[i],
-                              blocks[i][j] * at_node(displacement, gap.nodes[j]));
-                 });
+                 { add_products(gap, blocks, displacement, sums->gradient); });
     if (springs)
       springs->add_response(displacement, sums);
   }
@@ -377,25 +361,10 @@ namespace Exemplar
   double
   ObstacleTerm::rounding_force(const Vector &positions) const
   {
-    const std::vector<Contact> all = contacts(positions);
-    if (all.empty())
-      return 0.;
-    // both points of a gap are rounded
-    const double of_distance = 4. * std::numeric_limits<double>::epsilon()
-                               * max_entry(positions.begin(), positions.end());
-    // nearer the whole force is rounding, and nothing is solved
-    const double        least_distance = 1e4 * of_distance;
-    std::vector<double> squares(positions.size() / 3);
-    for (const Contact &contact : all)
-      if (contact.gap.distance > least_distance)
-      {
-        const Gap   &gap = contact.gap;
-        const double force
-            = of_distance * Barrier{ gap.stiffness, gap.width }.curvature(gap.distance);
-        for (unsigned int i = 0; i < gap.n_nodes; ++i)
-          squares[gap.nodes[i]] += std::pow(gap.coefficients[i] * force, 2);
-      }
-    return std::sqrt(max_entry(squares));
+    std::vector<Gap> gaps;
+    for (const Contact &contact : contacts(positions))
+      gaps.push_back(contact.gap);
+    return rounding_force_of(gaps, positions);
   }
 
   // What is shown and remembered

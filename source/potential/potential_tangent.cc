@@ -57,15 +57,17 @@ namespace Exemplar
   void
   PotentialTangent::make_pattern_of_couplings(const bool in_parts)
   {
-    couplings            = couplings_of(terms);
+    couplings     = couplings_of(terms);
+    NodePairs all = couplings;
+    all.insert(all.end(), gap_couplings.begin(), gap_couplings.end());
     const bool has_plain = plain != nullptr && plain_of == free_dofs.version()
                            && plain->products_are_apart == in_parts;
     if (!has_plain)
-      plain = couplings.empty()
+      plain = all.empty()
                   ? nullptr
                   : std::make_shared<const SymmetricPattern>(body.make_pattern({}, in_parts));
     plain_of      = free_dofs.version();
-    pattern       = body.make_pattern(couplings, in_parts);
+    pattern       = body.make_pattern(all, in_parts);
     pattern.plain = plain;
   }
 
@@ -85,6 +87,22 @@ namespace Exemplar
   {
     if (free_dofs.exchange().any(couplings != couplings_of(terms)))
       renew_pattern();
+  }
+
+  void
+  PotentialTangent::follow_gaps(const Vector &positions, const Terms which)
+  {
+    NodePairs now;
+    for (const auto &term : terms)
+      if (which == Terms::all && term->gap_width() > 0.)
+      {
+        const NodePairs more = term->couplings_of_gaps(positions);
+        now.insert(now.end(), more.begin(), more.end());
+      }
+    if (!free_dofs.exchange().any(now != gap_couplings))
+      return;
+    gap_couplings.swap(now);
+    renew_pattern();
   }
 
   void

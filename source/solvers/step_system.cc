@@ -69,6 +69,7 @@ namespace Exemplar
   bool
   StepSystem::begin_metric(const Vector &positions, const std::vector<double> &weights)
   {
+    potential.get_tangent().follow_gaps(positions, PotentialTangent::Terms::without_gaps);
     follow_pattern();
     BorderedSystem *const next = background.prepare(*system);
     if (next == nullptr)
@@ -109,6 +110,7 @@ namespace Exemplar
                        const double                  convexity,
                        const PotentialTangent::Terms terms)
   {
+    potential.get_tangent().follow_gaps(positions, terms);
     follow_pattern();
     assemble(positions, weights, convexity, terms, *system);
     count_factor();

@@ -160,3 +160,67 @@ def nearest_in_triangle(x, point):
         if distance < least:
             best, least = all_shares, distance
     return best
+
+
+def nearest_on_edges(x):
+    """Shares (s, t) of the nearest points of the edges x[0] x[1] and x[2] x[3]: the best of the inner point, sides and corners."""
+    e, f, r = x[1] - x[0], x[3] - x[2], x[0] - x[2]
+    candidates = [(s, t) for s in (0.0, 1.0) for t in (0.0, 1.0)]
+    candidates += [(s, (r + s * e) @ f / (f @ f)) for s in (0.0, 1.0)] + [((t * f - r) @ e / (e @ e), t) for t in (0.0, 1.0)]
+    candidates.append(tuple(np.linalg.lstsq(np.array([e, -f]).T, -r, rcond=None)[0]))
+    inside = [c for c in candidates if 0 <= c[0] <= 1 and 0 <= c[1] <= 1]
+    return min(inside, key=lambda c: np.linalg.norm(r + c[0] * e - c[1] * f))
+
+
+def part_of_edges(x, rest):
+    """What edges that are almost parallel have of their energy."""
+    square = (np.cross(x[1] - x[0], x[3] - x[2]) ** 2).sum()
+    p = square / (1e-3 * ((rest[1] - rest[0]) ** 2).sum() * ((rest[3] - rest[2]) ** 2).sum())
+    return p * (2 - p) if p < 1 else 1.0
+
+
+def pairs(body, owners):
+    """The contact of pieces with each other, for Reference.step(); `owners` are the pieces of the nodes."""
+    edges = sorted({tuple(sorted((t[k], t[(k + 1) % 3]))) for t in body.triangles for k in range(3)})
+    edge_areas = {edge: sum(a / 3 for t, a in zip(body.triangles, body.areas) if set(edge) <= set(t)) for edge in edges}
+    of_nodes = sorted(set(body.triangles.ravel()))
+    candidates = [((*t, n), min(body.node_areas[n], a)) for n in of_nodes for t, a in zip(body.triangles, body.areas)
+                  if owners[n] != owners[t[0]]]
+    n_triangles = len(candidates)
+    candidates += [((*e, *f), min(edge_areas[e], edge_areas[f])) for e in edges for f in edges if e < f and owners[e[0]] != owners[f[0]]]
+
+    def contact(x):
+        energy, force, matrix = 0.0, np.zeros_like(x), np.zeros((x.size, x.size))
+        for number, (nodes, area) in enumerate(candidates):
+            nodes = np.array(nodes)
+            places = x[nodes]
+            is_edges = number >= n_triangles
+            first = places[:2] if is_edges else places[:3]
+            second = places[len(first):]
+            if (first.min(0) > second.max(0) + body.width).any() or (second.min(0) > first.max(0) + body.width).any():
+                continue
+            if is_edges:
+                s, t = nearest_on_edges(places)
+                shares = np.array([1 - s, s, t - 1, -t])
+            else:
+                shares = np.append(nearest_in_triangle(places[:3], places[3]), -1.0)
+            way = shares @ places
+            length = np.linalg.norm(way)
+            if length >= body.width:
+                continue
+            value, slope, curvature = body.barrier(np.array([length]), 0.1 * body.young * area)
+            part = part_of_edges(places, body.rest[nodes]) if is_edges else 1.0
+            direction = np.outer(shares, way / length)
+            energy += part * value
+            force[nodes] += part * slope[0] * direction
+            if part < 1:
+                for i in range(4):
+                    for c in range(3):
+                        step = np.zeros_like(places)
+                        step[i, c] = 1e-4 * np.sqrt(area)
+                        more, less = (part_of_edges(places + sign * step, body.rest[nodes]) for sign in (1, -1))
+                        force[nodes[i], c] += value * (more - less) / (2 * step[i, c])
+            dofs = (3 * nodes[:, None] + np.arange(3)).ravel()
+            matrix[np.ix_(dofs, dofs)] += part * curvature[0] * np.outer(direction, direction)
+        return energy, force, matrix
+    return contact

@@ -63,6 +63,10 @@ namespace Exemplar
       return edges[node - mesh.n_nodes()];
     }
 
+    /// The piece of the mesh that each node belongs to, Mesh::piece_of().
+    std::vector<unsigned int>
+    pieces() const;
+
     /// `vertices` and the nodes on edges between two of them, in ascending order.
     std::vector<unsigned int>
     with_middles(std::vector<unsigned int> vertices) const;

@@ -2,7 +2,7 @@
 #ifndef exemplar_supports_h
 #define exemplar_supports_h
 
-#include <exemplar/mesh/mesh.h>
+#include <exemplar/body/fe_space.h>
 
 #include <deal.II/lac/vector.h>
 
@@ -13,11 +13,10 @@ namespace Exemplar
 {
   // Functions that take a mesh or an exchange are collective.
 
-  /// Number of the six rigid motions of the body that the held degrees of freedom (3 i + c) leave
-  /// free; nodes are at `rest_positions` at rest.
-  unsigned int
+  /// How many of the six rigid motions of each piece of the mesh the held degrees of freedom (3 i + c) leave free.
+  std::vector<unsigned int>
   n_free_rigid_motions(const Mesh                      &mesh,
-                       const dealii::Vector<double>    &rest_positions,
+                       const FESpace                   &fe_space,
                        const std::vector<unsigned int> &held_dofs);
 
   /// Six degrees of freedom of one cell that hold a body against rigid motion and

@@ -56,6 +56,20 @@ namespace Exemplar
       return order;
     }
 
+    /// How many pieces the whole body has that no common face connects.
+    unsigned int
+    n_pieces() const
+    {
+      return of_whole.pieces.empty() ? 1 : of_whole.pieces.first_elements.size();
+    }
+
+    /// The piece of a cell of this process.
+    unsigned int
+    piece_of(const unsigned int cell) const
+    {
+      return of_whole.pieces.empty() ? 0 : of_whole.pieces.of_cells[order.in_file()[cell]];
+    }
+
     /// The exchange with the processes that have the other parts.
     const Exchange &
     exchange() const

@@ -10,6 +10,20 @@
 
 namespace Exemplar
 {
+  /// The pieces of a mesh that no common face connects; empty if it is in one piece.
+  struct MeshPieces
+  {
+    std::vector<unsigned int>
+        of_cells; ///< the piece of each cell, in the order of their first cells
+    std::vector<std::size_t> first_elements; ///< number in the file of each piece's first cell
+
+    bool
+    empty() const
+    {
+      return of_cells.empty();
+    }
+  };
+
   /// A checked tetrahedral mesh. Node i is the i-th node of the file, cell c its c-th tetrahedron.
   struct MeshArrays
   {
@@ -18,6 +32,7 @@ namespace Exemplar
     std::vector<unsigned int>                material_ids;
     std::vector<std::size_t>                 element_numbers; ///< numbers in the file
     std::vector<BoundaryFace>                boundary_faces;
+    MeshPieces                               pieces;
     std::vector<std::string>                 warnings; ///< to show the user
   };
 

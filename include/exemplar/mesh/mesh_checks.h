@@ -2,6 +2,7 @@
 #ifndef exemplar_mesh_checks_h
 #define exemplar_mesh_checks_h
 
+#include <exemplar/mesh/mesh_arrays.h>
 #include <exemplar/mesh/msh_file.h>
 
 #include <array>
@@ -79,12 +80,13 @@ namespace Exemplar
                  const std::vector<CellFace>    &faces,
                  const std::vector<std::size_t> &swapped);
 
-  /// Refuse a mesh of several bodies: cells must be connected through faces.
-  void
-  check_connected(const MshFile               &contents,
-                  const std::string           &name,
-                  const Tetrahedra            &tetrahedra,
-                  const std::vector<CellFace> &faces);
+  /// The pieces of the mesh, in each of which cells are connected through faces; none for a mesh in one piece. Throws
+  /// UserError for pieces that have nodes in common, like hinges.
+  MeshPieces
+  find_pieces(const MshFile               &contents,
+              const std::string           &name,
+              const Tetrahedra            &tetrahedra,
+              const std::vector<CellFace> &faces);
 } // namespace Exemplar
 
 #endif

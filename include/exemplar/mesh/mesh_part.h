@@ -20,12 +20,13 @@ namespace Exemplar
     unsigned int           n_cells  = 0;
     double                 diameter = 0.; ///< diagonal of the bounding box [m]
     std::set<unsigned int> material_ids;
+    MeshPieces             pieces;
 
     template <typename Archive>
     void
     serialize(Archive &archive, unsigned int /*version*/)
     {
-      archive &n_nodes &n_cells &diameter &material_ids;
+      archive &n_nodes &n_cells &diameter &material_ids &pieces.of_cells &pieces.first_elements;
     }
   };
 

@@ -18,8 +18,8 @@ namespace Exemplar
     SpaceVector3          way; ///< v [m]
     std::array<double, 3> a{}, b{};
     unsigned int          n_free = 0;
-    /// da/dtheta of each free parameter theta.
-    std::array<std::array<double, 3>, 2> da{};
+    /// da/dtheta and db/dtheta of each free parameter theta.
+    std::array<std::array<double, 3>, 2> da{}, db{};
     /// dv/dtheta [m] of each.
     std::array<SpaceVector3, 2> dv{};
   };
@@ -33,7 +33,7 @@ namespace Exemplar
   Nearest
   nearest(const std::array<SpaceVector3, 2> &edge, const std::array<SpaceVector3, 2> &other);
 
-  /// The same with the roles exchanged: A is B. It has no da, as A must be a point.
+  /// The same with the roles exchanged: A is B.
   Nearest
   reversed(const Nearest &of);
 

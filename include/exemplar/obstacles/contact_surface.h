@@ -56,6 +56,7 @@ namespace Exemplar
     {
       std::array<unsigned int, 2> nodes;      ///< ascending
       double                      square;     ///< of its length at rest [m^2]
+      double                      area  = 0.; ///< a third of its triangles at rest [m^2]
       double                      share = 0.; ///< [N]
     };
 
@@ -71,6 +72,14 @@ namespace Exemplar
     std::vector<Edge>     edges; ///< ascending
     std::vector<Node>     nodes; ///< ascending
 
+    /// The number of the edge between two nodes.
+    unsigned int
+    number_of_edge(unsigned int node, unsigned int other) const;
+
+    /// The number of a node of the surface.
+    unsigned int
+    number_of_node(unsigned int node) const;
+
     /// In bytes.
     std::size_t
     memory_consumption() const
@@ -78,15 +87,6 @@ namespace Exemplar
       return triangles.size() * sizeof(Triangle) + edges.size() * sizeof(Edge)
              + nodes.size() * sizeof(Node);
     }
-
-  private:
-    /// The number of the edge from corner k of a triangle to the next.
-    unsigned int
-    edge_of(const Triangle &triangle, unsigned int k) const;
-
-    /// The number of its corner k.
-    unsigned int
-    node_of(const Triangle &triangle, unsigned int k) const;
   };
 } // namespace Exemplar
 

@@ -2,34 +2,56 @@
 #ifndef exemplar_contact_forces_h
 #define exemplar_contact_forces_h
 
+#include <exemplar/algebra/free_dofs.h>
+#include <exemplar/algebra/spd_operator.h>
 #include <exemplar/potential/contact_search.h>
 #include <exemplar/potential/evaluation.h>
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace Exemplar
 {
-  /// Derivatives by the nodes of a contact, of which there are at most three.
-  using ContactGradient = std::array<SpaceVector3, 3>;
-  using ContactHessian  = std::array<std::array<dealii::Tensor<2, 3>, 3>, 3>;
+  /// Derivatives by the nodes of a pair that touches, of which there are at most four.
+  using ContactGradient = std::array<SpaceVector3, 4>;
+  using ContactHessian  = std::array<std::array<dealii::Tensor<2, 3>, 4>, 4>;
 
-  /// The energy of a contact's barrier [J].
+  /// The energy of a pair's barrier [J].
   double
-  energy_of(const Contact &contact);
+  energy_of(const Touch &touch);
 
   /// Its derivative [N].
   ContactGradient
-  gradient_of(const Contact &contact);
+  gradient_of(const Touch &touch);
 
   /// Its second derivative [N/m], or what is nearest to it of all that is not indefinite.
   ContactHessian
-  hessian_of(const Contact &contact, Tangent kind);
+  hessian_of(const Touch &touch, Tangent kind);
 
   /// Inverse of the Gram matrix of dv, the second derivative of v^2 / 2 by the free parameters [1/m^2]; those of parallel
   /// edges are one.
   dealii::Tensor<2, 2>
   inverse_of_free(const Nearest &at);
+
+  /// Add the blocks of a gap's nodes to the values of a matrix.
+  void
+  add_blocks(const Gap              &gap,
+             const ContactHessian   &blocks,
+             const SymmetricPattern &pattern,
+             const FreeDofs         &free_dofs,
+             std::vector<double>    &values);
+
+  /// Add the blocks times a displacement to a field.
+  void
+  add_products(const Gap            &gap,
+               const ContactHessian &blocks,
+               const Vector         &displacement,
+               Vector               &field);
+
+  /// The greatest force at a node, at these positions, that is nothing but the rounding of distances [N].
+  double
+  rounding_force_of(const std::vector<Gap> &gaps, const Vector &positions);
 
   /// What rubs at a contact, with the normal force that it had when this was found.
   struct Rubbing
@@ -44,6 +66,10 @@ namespace Exemplar
     std::array<unsigned int, 3> vertices;
     std::array<double, 3>       shares;
   };
+
+  /// The greatest normal force of what rubs, and the greatest difference to earlier ones; both lists ascend with obstacles and keys.
+  std::pair<double, double>
+  force_and_change_of(const std::vector<Rubbing> &now, const std::vector<Rubbing> &before);
 
   /// Coulomb's friction of a contact for a slip u [m] along the obstacle: mu lambda f(|u|), smooth below a slip e [m]: f' = 2 y / e - (y / e)^2 there and 1 beyond.
   struct SlipEnergy

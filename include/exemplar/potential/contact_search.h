@@ -6,15 +6,12 @@
 #include <exemplar/obstacles/box_tree.h>
 #include <exemplar/obstacles/contact_surface.h>
 #include <exemplar/obstacles/obstacles.h>
-#include <exemplar/potential/gap.h>
+#include <exemplar/potential/touch.h>
 
 #include <vector>
 
 namespace Exemplar
 {
-  /// c in k = c E A, doc/contact.md.
-  constexpr double contact_stiffness_factor = 0.1;
-
   /// What of the body meets what of an obstacle.
   enum class PairKind
   {
@@ -63,9 +60,6 @@ namespace Exemplar
     unsigned int              n_moves = 0; ///< of its vertices in its axes
   };
 
-  /// The nodes' places in an obstacle's axes, by node; only those of the surface are set.
-  using Places = std::vector<SpaceVector3>;
-
   /// The pairs that were within reach when they were looked for last, in an order that mesh and obstacle decide. Until something has
   /// moved by what `reach` is more than asked for, all that are asked for are among them.
   struct KeptPairs
@@ -84,28 +78,12 @@ namespace Exemplar
     std::array<SpaceVector3, 3> places;
   };
 
-  /// Where a pair is nearest, in the obstacle's axes.
-  struct PairDistance
+  /// A part of the body and a part of an obstacle that are nearer than their width, in space.
+  struct Contact : Touch
   {
-    Nearest      nearest;
-    SpaceVector3 normal;           ///< gradient by the body's point; 0 where there is none
-    double       distance = 0.;    ///< less the radius [m]
-    bool         is_flat  = false; ///< a half space: the distance has no second derivative
-  };
-
-  /// A pair that is nearer than its width, in space. Edges that are almost parallel have the part `m` of the energy:
-  /// m = 1 beside them, and its gradient by the vector e of the body's edge is `by_edge`.
-  struct Contact
-  {
-    unsigned int         obstacle; ///< its number
-    ContactPair          pair;
-    Gap                  gap;            ///< its stiffness is m times the full one
-    PairDistance         at;             ///< turned into space
-    double               full_stiffness; ///< k [N]
-    double               m = 1.;
-    SpaceVector3         by_edge;       ///< dm/de [1/m]
-    dealii::Tensor<2, 3> by_edge_twice; ///< d^2m/de^2 [1/m^2]
-    SpaceVector3         of_obstacle;   ///< the obstacle's point [m]
+    unsigned int obstacle; ///< its number
+    ContactPair  pair;
+    SpaceVector3 of_obstacle; ///< the obstacle's point [m]
   };
 
   /// The pairs of a body and an obstacle.
@@ -152,7 +130,7 @@ namespace Exemplar
     PairCorners
     corners(const ContactPair &pair, const Places &places) const;
 
-    /// With the body's nodes at these places in the obstacle's axes.
+    /// With the body's nodes at these places in the obstacle's axes; in these axes.
     PairDistance
     distance(const ContactPair &pair, const std::array<SpaceVector3, 3> &places) const;
 

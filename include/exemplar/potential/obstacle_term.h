@@ -50,9 +50,8 @@ namespace Exemplar
     TermChange
     renew(const TermPoint &at) override;
 
-    /// Whether the normal forces of friction have settled in the step that was last solved: not if they were renewed as often as they may be.
     bool
-    has_settled() const
+    has_settled() const override
     {
       return step.n_renewals <= max_renewals;
     }

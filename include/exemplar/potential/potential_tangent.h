@@ -56,16 +56,21 @@ namespace Exemplar
     void
     follow_couplings();
 
-    /// A term gets to know the pattern.
-    void
-    attach(PotentialTerm &term);
-
     /// Which terms to take: those with gaps stay out of inverses that are kept, PotentialTerm::gap_width().
     enum class Terms
     {
       all,
       without_gaps
     };
+
+    /// Let the pattern couple what these terms do at these positions, to be asked before each assembly: it depends on nothing else, and
+    /// is renewed where that differs from before.
+    void
+    follow_gaps(const Vector &positions, Terms which);
+
+    /// A term gets to know the pattern.
+    void
+    attach(PotentialTerm &term);
 
     /// A and G: exact for convexity 0, convex for 1, a mixture between. There must be `products`, which
     /// A is the sum of the values and, where the pattern is without them.
@@ -97,7 +102,8 @@ namespace Exemplar
     const FreeDofs       &free_dofs;
     const PotentialTerms &terms;
     const bool            always_in_parts;
-    NodePairs             couplings; ///< of the terms
+    NodePairs             couplings;     ///< of the terms
+    NodePairs             gap_couplings; ///< of their gaps where the tangent was assembled last
     SymmetricPattern      pattern;
     std::shared_ptr<const SymmetricPattern>
                  plain;        ///< the pattern without these couplings, if there are any

@@ -105,6 +105,13 @@ namespace Exemplar
       return TermChange::none;
     }
 
+    /// Whether what it lags had settled where the last step ended: not if it was renewed as often as it may be.
+    virtual bool
+    has_settled() const
+    {
+      return true;
+    }
+
     /// What the step with this end has made heat of [J], before end_step(). Empty: the term never makes any.
     virtual std::optional<double>
     dissipation(const State & /*end*/) const
@@ -191,6 +198,14 @@ namespace Exemplar
     gap_width() const
     {
       return 0.;
+    }
+
+    /// Pairs of nodes, ascending and the lesser node first, that the tangent of a term with gaps couples at these positions beside those
+    /// that share a cell. They are in the pattern while the tangent is assembled there, and not in that of inverses that are kept.
+    virtual NodePairs
+    couplings_of_gaps(const Vector & /*positions*/) const
+    {
+      return {};
     }
 
     /// Append all gaps of the body at these positions whose distance is below `range` times their width, in an order

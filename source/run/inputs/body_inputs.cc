@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/body/grain_axes.h>
 #include <exemplar/body/patches.h>
+#include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/run/inputs/body_inputs.h>
 #include <exemplar/run/inputs/surface_readings.h>
 #include <exemplar/run/scene/scene_parameters.h>
+
+#include <fmt/core.h>
 
 #include <utility>
 
@@ -63,6 +66,12 @@ namespace Exemplar
       fields.obstacles = std::move(inputs.obstacles);
       for (auto &[name, surface] : fields.obstacles)
         scale(surface, scene.mesh.scale);
+      if (scene.scene == SceneKind::interpolation && mesh.n_pieces() > 1)
+        throw UserError(fmt::format(
+            "{}: has {} pieces that no common face connects, beginning with element {}, but Scene "
+            "= interpolation goes the way of one body between its poses. Interpolate each piece by "
+            "itself, or set Scene = static with handles that hold each.",
+            mesh.get_name(), mesh.n_pieces(), list_numbers(mesh.whole().pieces.first_elements)));
       if (scene.scene == SceneKind::interpolation)
         fields.support = support_near_centroid(mesh.get_nodes(), mesh.get_cells());
       return fields;

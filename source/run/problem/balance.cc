@@ -42,8 +42,11 @@ namespace Exemplar
       if (parameters.solver.linear_solver == LinearSolver::umfpack)
         refuse_balance("Solver/Linear solver = umfpack has no factor of the positions alone",
                        "Set Solver/Linear solver = auto," + without);
-      if (const unsigned int n_free = n_free_rigid_motions(
-              body.mesh, body.fe_space.rest_positions(), constraints.handles.held_dofs()))
+      const auto free_of_pieces
+          = n_free_rigid_motions(body.mesh, body.fe_space, constraints.handles.held_dofs());
+      if (const unsigned int n_free
+          = *std::max_element(free_of_pieces.begin(), free_of_pieces.end());
+          n_free > 0)
         refuse_balance(
             fmt::format("the handles leave {} of 6 rigid motions free in the beginning, so that "
                         "nothing bears the body",

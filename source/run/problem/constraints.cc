@@ -183,17 +183,25 @@ namespace Exemplar
     const bool has_obstacles = !parameters.obstacles.empty();
     if (has_obstacles && parameters.obstacles.free != FreeBodies::refused)
       return;
-    const unsigned int n_free
-        = n_free_rigid_motions(body.mesh, body.fe_space.rest_positions(), held);
+    const auto         free_of_pieces = n_free_rigid_motions(body.mesh, body.fe_space, held);
+    const auto         loose  = std::max_element(free_of_pieces.begin(), free_of_pieces.end());
+    const unsigned int n_free = *loose;
+    const std::string  of_piece
+        = free_of_pieces.size() == 1
+              ? ""
+              : fmt::format(
+                  " of the piece with element {}",
+                  body.mesh.whole().pieces.first_elements[loose - free_of_pieces.begin()]);
     std::string single_nodes;
     for (const std::string &sentence : describe_single_nodes(body))
       single_nodes += " " + sentence;
     if (n_free > 0)
       throw UserError(fmt::format(
-          "{}: the handles leave {} of 6 rigid motions free, so a static scene has no unique "
+          "{}: the handles leave {} of 6 rigid motions{} free, so a static scene has no unique "
           "equilibrium.{}{} a subsection of Handles that holds three nodes not on a line (a box, a "
           "sphere or a boundary), or hold more Components.{}",
-          parameters.name, n_free, single_nodes, single_nodes.empty() ? " Add" : " Or add",
+          parameters.name, n_free, of_piece, single_nodes,
+          single_nodes.empty() ? " Add" : " Or add",
           has_obstacles ? " Or let obstacles hold the body, with Obstacles/Free = friction or weak "
                           "springs."
                         : ""));

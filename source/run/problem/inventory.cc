@@ -63,6 +63,7 @@ namespace Exemplar
       { "loads", actions.loads != nullptr && actions.loads->has_named_loads(),
         has_gravity ? 0 : loads },
       { "obstacles", actions.obstacles != nullptr, memory_of_term(problem, "obstacles") },
+      { "body contact", actions.body_contacts != nullptr, memory_of_term(problem, "body contact") },
       { "initial stresses", !actions.initial_stresses.empty(),
         memory_of_term(problem, "initial stress") },
       { "plastic cells",

@@ -165,6 +165,7 @@ namespace Exemplar
   Laboratory::assemble(const Place &at, const Tangent kind)
   {
     evaluate(at); // finds the rotations
+    potential.get_tangent().follow_gaps(at.positions, PotentialTangent::Terms::all);
     values.resize(potential.get_tangent().get_pattern().n_values());
     potential.get_tangent().assemble(at.positions, at.weights, kind == Tangent::convex ? 1. : 0.,
                                      values, columns);

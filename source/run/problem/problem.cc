@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/body/pose_checks.h>
 #include <exemplar/run/problem/balance.h>
+#include <exemplar/run/problem/body_contact_start.h>
 #include <exemplar/run/problem/example_starts.h>
 #include <exemplar/run/problem/finiteness.h>
 #include <exemplar/run/problem/initial_state.h>
@@ -87,6 +88,9 @@ namespace Exemplar
       suit_obstacles(*actions.obstacles, *actions.contact_surface, body, state.positions, 0.,
                      actions.notes);
     }
+    if (actions.body_contacts != nullptr)
+      suit_body_contacts(*actions.body_contacts, *actions.contact_surface,
+                         body.fe_space.rest_positions(), state.positions, actions.notes);
     state.history = cells.get_field().get_batches().history();
     start(state);
     check_start(*this);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/potential/body_contact_term.h>
 #include <exemplar/potential/inertia_term.h>
 #include <exemplar/potential/load_term.h>
 #include <exemplar/potential/obstacle_term.h>
@@ -37,6 +39,24 @@ namespace Exemplar
         return nullptr;
       return std::make_unique<Loads>(parameters.loads, body.mesh, body.fe_space, body.material,
                                      inputs.fields.nodes, parameters.material.mass_matrix);
+    }
+
+    std::unique_ptr<BodyContacts>
+    make_body_contacts(const SceneParameters &parameters, const Body &body)
+    {
+      if (parameters.contact.empty())
+        return nullptr;
+      if (body.exchange().n_processes() > 1)
+        throw UserError(
+            parameters.name
+            + ": Contact/Self and Contact/Bodies are not for several processes yet, of which "
+              "none knows the surface of another. Start one.");
+      if (!parameters.contact.self && body.mesh.n_pieces() == 1)
+        throw UserError(
+            parameters.name
+            + ": Contact/Bodies = true keeps pieces of the mesh out of each other, but it is "
+              "in one piece. Set Contact/Self = true, or Contact/Bodies = false.");
+      return std::make_unique<BodyContacts>(parameters.contact, body.mesh, body.fe_space);
     }
 
     /// Whether steps minimise one energy, the same before and after a step.
@@ -114,7 +134,8 @@ namespace Exemplar
                       ? nullptr
                       : std::make_unique<Obstacles>(
                           parameters.obstacles, body.mesh.diameter(), inputs.fields.obstacles)),
-        contact_surface(obstacles == nullptr
+        body_contacts(make_body_contacts(parameters, body)),
+        contact_surface(obstacles == nullptr && body_contacts == nullptr
                             ? nullptr
                             : std::make_unique<ContactSurface>(body.mesh, body.fe_space)),
         energy_is_bounded(integrator != nullptr && integrator->is_undamped_implicit_euler()
@@ -190,9 +211,12 @@ namespace Exemplar
     if (loads != nullptr)
       terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space));
     if (obstacles != nullptr)
-      terms.push_back(std::make_unique<ObstacleTerm>(
-          *obstacles, *contact_surface, body.material, body.fe_space.rest_positions(),
-          integrator_of_terms));
+      terms.push_back(std::make_unique<ObstacleTerm>(*obstacles, *contact_surface, body.material,
+                                                     body.fe_space.rest_positions(),
+                                                     integrator_of_terms));
+    if (body_contacts != nullptr)
+      terms.push_back(std::make_unique<BodyContactTerm>(*body_contacts, *contact_surface,
+                                                        body.material, integrator_of_terms));
     if (!initial_stresses.empty())
       terms.push_back(std::make_unique<InitialStressTerm>(cells, body.fe_space, initial_stresses));
     return terms;

@@ -3,8 +3,9 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/rigid_motion.h>
+#include <exemplar/potential/body_contact_term.h>
+#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/run/problem/example_starts.h>
-#include <exemplar/run/problem/obstacle_start.h>
 #include <exemplar/run/problem/state_review.h>
 
 #include <fmt/core.h>
@@ -198,6 +199,21 @@ namespace Exemplar
       return problem.body.exchange().max(max_entry(held.begin(), held.end()))
              < 1e-10 * problem.body.mesh.diameter();
     }
+    bool
+    has_friction_of_obstacles(const Problem &problem)
+    {
+      return problem.actions.obstacles != nullptr && problem.actions.obstacles->have_friction();
+    }
+
+    /// Of normal forces, in words.
+    std::string
+    allowed_change(const Problem &problem)
+    {
+      return has_friction_of_obstacles(problem)
+                 ? "Obstacles/Lag tolerance, "
+                       + shortest_text(problem.actions.obstacles->lag_tolerance)
+                 : shortest_text(BodyContactTerm::lag_tolerance);
+    }
   } // namespace
 
   StateReview::StateReview(const Problem &problem) : problem(problem) {}
@@ -207,8 +223,10 @@ namespace Exemplar
   {
     if (report.load_stages > 0 && first_raised == 0)
       first_raised = problem.state.step;
-    if (const ObstacleTerm *const obstacles = find_obstacle_term(problem);
-        obstacles != nullptr && !obstacles->has_settled() && n_unsettled++ == 0)
+    const PotentialTerms &terms       = problem.potential.get_terms();
+    const bool            all_settled = std::all_of(terms.begin(), terms.end(),
+                                                    [](const auto &term) { return term->has_settled(); });
+    if (!all_settled && n_unsettled++ == 0)
       first_unsettled = problem.state.step;
     const unsigned int n_cells = problem.evaluation.elastic.inverted_cells;
     if (n_cells == 0)
@@ -248,11 +266,10 @@ namespace Exemplar
     if (n_unsettled > 0)
       all.push_back(fmt::format(
           "Friction had not settled in {} {}, first in step {}: its normal forces changed by more "
-          "than Obstacles/Lag tolerance, {}, as often as they are renewed in a step, {} times. "
-          "Take smaller steps, or a "
-          "greater Lag tolerance.",
+          "than {}, as often as they are renewed in a step, {} times. Take smaller steps{}.",
           n_unsettled, n_unsettled == 1 ? "step" : "steps", first_unsettled,
-          shortest_text(problem.actions.obstacles->lag_tolerance), ObstacleTerm::max_renewals));
+          allowed_change(problem), ObstacleTerm::max_renewals,
+          has_friction_of_obstacles(problem) ? ", or a greater Lag tolerance" : ""));
     for (const auto &warning :
          { describe_stretched(problem), describe_turned(problem), describe_miss(problem) })
       if (warning)

@@ -208,6 +208,7 @@ namespace Exemplar
         "Names of what the body may not pass, separated by commas; each has a subsection.");
     parameters.obstacles.declare(keys);
     keys.leave_subsection();
+    parameters.contact.declare(keys);
     parameters.initial.declare(keys);
     parameters.time.declare(keys);
     parameters.solver.declare(keys);

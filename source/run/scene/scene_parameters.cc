@@ -105,6 +105,9 @@ namespace Exemplar
     check_solver();
     if (!obstacles.empty())
       check_obstacles();
+    contact.check();
+    if (!contact.empty())
+      check_contact();
     if (mesh.surface_file().empty())
       check_without_surface();
     mesh.check_carried();
@@ -166,20 +169,19 @@ namespace Exemplar
   }
 
   void
-  CompleteScene::check_obstacles() const
+  CompleteScene::refuse_beside_barriers(const std::string &all, const std::string &remedy) const
   {
-    const std::string all = "Obstacles/Names lists what the body may not pass, but ";
     refuse(
         { { scene == SceneKind::interpolation,
-            all
-                + "an interpolation follows its prescribed weights. Set Scene = static, or leave "
-                  "Obstacles/Names empty." },
+            all + "an interpolation follows its prescribed weights. Set Scene = static, or "
+                + remedy + "." },
           { model.is_frozen() || solver.method == Method::one_pass
                 || solver.method == Method::fixed_point,
             all
                 + "Model/Gradient = frozen and Solver/Method = one pass or fixed point minimise no "
                   "energy, so that nothing keeps it out. Set Model/Gradient = consistent and "
-                  "Solver/Method = auto, or leave Obstacles/Names empty." },
+                  "Solver/Method = auto, or "
+                + remedy + "." },
           { solver.starts == Starts::examples,
             all + "Solver/Starts = examples puts it anywhere. Set Solver/Starts = state." },
           { output.space_error != SpaceErrorUse::never,
@@ -188,9 +190,24 @@ namespace Exemplar
                   "them. Set Output/Space error = false." },
           { loads.balanced, all
                                 + "Loads/Balanced = true lets handles bear it. Set Loads/Balanced "
-                                  "= false, or leave "
-                                  "Obstacles/Names empty." } });
+                                  "= false, or "
+                                + remedy + "." } });
+  }
+
+  void
+  CompleteScene::check_obstacles() const
+  {
+    refuse_beside_barriers("Obstacles/Names lists what the body may not pass, but ",
+                           "leave Obstacles/Names empty");
     obstacles.check();
+  }
+
+  void
+  CompleteScene::check_contact() const
+  {
+    refuse_beside_barriers(std::string(contact.self ? "Contact/Self" : "Contact/Bodies")
+                               + " = true keeps surfaces of the body out of each other, but ",
+                           "set Contact/Self and Contact/Bodies = false");
   }
 
   void

@@ -147,7 +147,7 @@ namespace Exemplar::Testing
       expect_contains(error_of(msh), "element 101, 102, 103.");
     }
 
-    TEST(MeshTest, RefusesSeveralParts)
+    TEST(MeshTest, RefusesPartsLikeHingesAndCountsPieces)
     {
       // A third tetrahedron that shares 2, 1 or 0 nodes with the others.
       MshFile msh = two_tetrahedra();
@@ -168,7 +168,12 @@ namespace Exemplar::Testing
       msh = point_nodes;
       add_node(msh, { -2., 1., -1. });
       msh.elements.push_back({ 103, tetrahedron, 0, 1, { 5, 6, 7, 8 } });
-      expect_contains(error_of(msh), "They have no node in common.");
+      const Mesh mesh(msh, "bar.msh");
+      EXPECT_EQ(mesh.n_pieces(), 2U);
+      EXPECT_EQ(mesh.whole().pieces.first_elements, (std::vector<std::size_t>{ 101, 103 }));
+      EXPECT_EQ(mesh.piece_of(1), 0U);
+      EXPECT_EQ(mesh.piece_of(2), 1U);
+      EXPECT_EQ(Mesh(two_tetrahedra(), "bar.msh").n_pieces(), 1U);
     }
 
     TEST(MeshTest, ChecksPhysicalTriangles)

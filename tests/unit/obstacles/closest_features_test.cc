@@ -104,6 +104,80 @@ namespace Exemplar::Testing
     }
   }
 
+  namespace
+  {
+    __extension__ typedef __float128 Quad; // 34 digits
+
+    /// The least distance of x0 + s e + t f from the origin, s and t within [0, 1] and, in a triangle, s + t <= 1: the best of
+    /// the inner point and of those on the rims, in 34 digits.
+    double
+    least_distance(const SpaceVector3 &x0,
+                   const SpaceVector3 &e,
+                   const SpaceVector3 &f,
+                   const bool          is_triangle)
+    {
+      const auto dot = [](const SpaceVector3 &a, const SpaceVector3 &b)
+      {
+        Quad sum = 0;
+        for (unsigned int c = 0; c < 3; ++c)
+          sum += Quad(a[c]) * Quad(b[c]);
+        return sum;
+      };
+      const Quad ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), xe = dot(x0, e), xf = dot(x0, f);
+      Quad       least = dot(x0, x0);
+      const auto offer = [&](const Quad s, const Quad t)
+      {
+        if (!(s >= 0 && t >= 0 && s <= 1 && t <= 1 && (!is_triangle || s + t <= 1)))
+          return;
+        Quad square = 0;
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          const Quad x = Quad(x0[c]) + s * Quad(e[c]) + t * Quad(f[c]);
+          square += x * x;
+        }
+        if (square < least)
+          least = square;
+      };
+      for (const Quad end : { Quad(0), Quad(1) })
+      {
+        offer(end, 0);
+        offer(end, 1);
+        if (ff > 0)
+          offer(end, -(xf + end * ef) / ff);
+        if (ee > 0)
+          offer(-(xe + end * ef) / ee, end);
+      }
+      offer(0, 1);
+      if (const Quad across = ee - 2 * ef + ff; is_triangle && across > 0)
+      {
+        const Quad t = (ee + xe - ef - xf) / across; // along the side from e to f
+        offer(1 - t, t);
+      }
+      if (const Quad determinant = ee * ff - ef * ef; determinant > 0)
+        offer((ef * xf - ff * xe) / determinant, (ef * xe - ee * xf) / determinant);
+      return std::sqrt(static_cast<double>(least));
+    }
+  } // namespace
+
+  TEST(ClosestFeatures, DistancesHaveTwelveDigits)
+  {
+    Places place;
+    for (unsigned int n = 0; n < 20000; ++n)
+    {
+      // sides that are almost parallel, in steps of ten to 1e-11
+      const double                      thin = std::pow(10., -static_cast<double>(n % 12));
+      const SpaceVector3                a = place(), b = place(), p = place(), q = place();
+      const std::array<SpaceVector3, 3> triangle{ { a, b, a + 0.4 * (b - a) + thin * q } };
+      EXPECT_NEAR(nearest(triangle, p).way.norm(),
+                  least_distance(a - p, b - a, triangle[2] - a, true), 1e-12)
+          << n;
+      const std::array<SpaceVector3, 2> edge{ { a, b } }, other{ { p, p + (b - a) + thin * q } };
+      EXPECT_NEAR(nearest(edge, other).way.norm(),
+                  least_distance(a - p, b - a, p - other[1], false), 1e-12)
+          << n;
+    }
+  }
+
   TEST(ClosestFeatures, FlatTrianglesAreTheirEdges)
   {
     const SpaceVector3 o;

@@ -8,6 +8,7 @@
 #include <exemplar/body/mass.h>
 #include <exemplar/body/supports.h>
 #include <exemplar/body/time_integrator.h>
+#include <exemplar/obstacles/body_contacts.h>
 #include <exemplar/obstacles/contact_surface.h>
 #include <exemplar/obstacles/obstacles.h>
 #include <exemplar/potential/elastic_potential.h>
@@ -160,7 +161,8 @@ namespace Exemplar
     const std::unique_ptr<Mass>           mass;       ///< in dynamic scenes
     const std::unique_ptr<TimeIntegrator> integrator; ///< in dynamic scenes
     std::unique_ptr<Obstacles>            obstacles;
-    std::unique_ptr<ContactSurface>       contact_surface;  ///< with obstacles
+    std::unique_ptr<BodyContacts>         body_contacts;    ///< with Contact/Self or Bodies
+    std::unique_ptr<ContactSurface>       contact_surface;  ///< with obstacles or these
     PointStresses                         initial_stresses; ///< empty unless the body is balanced
     std::vector<OwnTerm>                  own_terms;        ///< in order of addition
     std::vector<std::string>              warnings;         ///< of all but own_terms

@@ -9,6 +9,7 @@
 #include <exemplar/body/model_parameters.h>
 #include <exemplar/body/time_parameters.h>
 #include <exemplar/mesh/mesh_parameters.h>
+#include <exemplar/obstacles/contact_parameters.h>
 #include <exemplar/obstacles/obstacle_parameters.h>
 #include <exemplar/run/scene/initial_parameters.h>
 #include <exemplar/run/scene/output_parameters.h>
@@ -44,6 +45,7 @@ namespace Exemplar
     std::vector<HandleParameters> handles;
     LoadsParameters               loads;
     ObstaclesParameters           obstacles;
+    ContactParameters             contact;
     InitialParameters             initial;
     TimeParameters                time;
     SolverParameters              solver;
@@ -87,6 +89,14 @@ namespace Exemplar
     check_obstacles() const;
 
   private:
+    /// Throws UserError for what has no place beside barriers, with what these are and how to do without.
+    void
+    refuse_beside_barriers(const std::string &what, const std::string &remedy) const;
+
+    /// Throws UserError for what has no place beside a body that may not pass through itself.
+    void
+    check_contact() const;
+
     void
     complete();
 

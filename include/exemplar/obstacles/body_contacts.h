@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_body_contacts_h
+#define exemplar_body_contacts_h
+
+#include <exemplar/obstacles/contact_parameters.h>
+#include <exemplar/obstacles/contact_surface.h>
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace Exemplar
+{
+  /// What of the body meets what of the body.
+  enum class BodyPairKind
+  {
+    node_triangle,
+    edge_edge
+  };
+
+  /// Two parts of a ContactSurface, by their numbers. Of edges the first has the lesser one.
+  struct BodyPair
+  {
+    BodyPairKind kind;
+    unsigned int first, second;
+
+    /// Ascending with kind, first and second.
+    std::uint64_t
+    key() const
+    {
+      return static_cast<std::uint64_t>(kind) << 62U | static_cast<std::uint64_t>(first) << 31U
+             | second;
+    }
+  };
+
+  /// Which parts of a body's surface may meet, and from where they push each other.
+  struct BodyContacts
+  {
+    /// Throws UserError as contact_distance().
+    BodyContacts(const ContactParameters &parameters, const Mesh &mesh, const FESpace &fe_space);
+
+    /// Whether a pair counts that is not left out: it has no node in common, and is of pieces that may meet.
+    bool
+    may_meet(const ContactSurface &surface, const BodyPair &pair) const;
+
+    /// From where a pair pushes [m]; 0: it is left out.
+    double
+    width_of(const BodyPair &pair) const
+    {
+      const auto found = own_widths.find(pair.key());
+      return found == own_widths.end() ? width : found->second;
+    }
+
+    double                    width;          ///< d_hat: from where others push [m]
+    double                    diameter;       ///< of the largest piece [m]
+    double                    friction;       ///< coefficient [-]
+    double                    slip_speed;     ///< [m/s]
+    bool                      also_self;      ///< also parts of one piece
+    std::vector<unsigned int> pieces;         ///< of the nodes
+    unsigned int              n_left_out = 0; ///< pairs
+    /// Of pairs that are nearer than `width` at rest or where the body begins: half of that, or 0 for those that are left out.
+    std::unordered_map<std::uint64_t, double> own_widths;
+  };
+} // namespace Exemplar
+
+#endif

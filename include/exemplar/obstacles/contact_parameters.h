@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_contact_parameters_h
+#define exemplar_contact_parameters_h
+
+#include <exemplar/prm/key_table.h>
+
+#include <string>
+
+namespace Exemplar
+{
+  /// Throws UserError unless the text of a key is auto or a positive number.
+  void
+  check_length(const std::string &text, const std::string &key, const std::string &unit);
+
+  /// The distance [m] from which a body of this diameter [m] is pushed, by the text of a key: a number [m], or auto. Throws
+  /// UserError for a number that is above a tenth of the diameter or below a millionth.
+  double
+  contact_distance(const std::string &text, const std::string &key, double diameter);
+
+  /// Section Contact: of the body with itself.
+  struct ContactParameters
+  {
+    bool        self       = false;  ///< each piece with itself and with others
+    bool        bodies     = false;  ///< pieces with each other
+    double      friction   = 0.;     ///< coefficient [-]
+    std::string distance   = "auto"; ///< d_hat [m]
+    std::string slip_speed = "auto"; ///< [m/s]
+
+    void
+    declare(KeyTable &keys);
+
+    /// Throws UserError for a distance that is no number.
+    void
+    check() const;
+
+    bool
+    empty() const
+    {
+      return !self && !bodies;
+    }
+  };
+} // namespace Exemplar
+
+#endif
