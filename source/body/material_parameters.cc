@@ -51,6 +51,17 @@ namespace Exemplar
           "drawn. It is the first axis of Orthotropy, too.",
           "; ");
       keys.add(
+          "Fibre tension", constants.fibre_tension,
+          "T [Pa] with which fibres pull along Fibre direction, a formula of x, y, z [m] at rest, "
+          "taken at the centre "
+          "of a cell, and t [s], at least 0: of muscles 1e5 to 3e5. A step has that of its end.",
+          "; ");
+      keys.add("Fibre tension curve", constants.fibre_tension_curve,
+               "Force-length curve: factors of Fibre tension by the stretch of a fibre, 'stretch: "
+               "factor; stretch: factor; "
+               "...', linear between and constant outside, as 0.5: 0; 1: 1; 1.5: 0. Empty: 1.",
+               "; ");
+      keys.add(
           "Orthotropy", constants.orthotropy,
           "E_1, E_2, E_3, nu_23, nu_13, nu_12, G_23, G_13, G_12 [Pa] and [-], separated by commas, "
           "instead of Young's modulus and Poisson's ratio, with which the body must be stable: "
@@ -100,6 +111,30 @@ namespace Exemplar
     return own.at(Fibrous<double>::own_constants[0].name) > 0. || !orthotropy.empty();
   }
 
+  bool
+  ElasticConstants::has_tension() const
+  {
+    return parse_number(fibre_tension) != 0.; // NaN of a formula, too
+  }
+
+  bool
+  MaterialParameters::has_tension() const
+  {
+    bool has = false;
+    for_each_section([&](const ElasticConstants &constants, const std::string & /*section*/)
+                     { has |= constants.has_tension(); });
+    return has;
+  }
+
+  bool
+  MaterialParameters::has_fibres() const
+  {
+    bool has = false;
+    for_each_section([&](const ElasticConstants &constants, const std::string & /*section*/)
+                     { has |= constants.has_fibres(); });
+    return has;
+  }
+
   std::optional<CellLaw>
   MaterialParameters::law_of_grain() const
   {
@@ -124,7 +159,7 @@ namespace Exemplar
         {
           const std::string key = section + "/Fibre direction";
           if (const auto ends = split_fibre_ends(constants.fibre_direction, key);
-              ends && constants.has_grain() && fibre_direction_maps.empty())
+              ends && constants.has_fibres() && fibre_direction_maps.empty())
             for (const Selection &end : { ends->from, ends->to })
               all.emplace_back(end, key);
         });
@@ -205,6 +240,11 @@ namespace Exemplar
         "Importance painted on the surface: FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN] with a "
         "value from 0 to 1 for each vertex of Mesh/Surface, a factor of what this section "
         "and those of regions say.");
+    keys.add_file("Fibre tension map", fibre_tension_map,
+                  "Fibre tension painted on the surface: FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN] "
+                  "with a value from 0 to 1 for each vertex of Mesh/Surface, a factor of what this "
+                  "section and those "
+                  "of regions say.");
     keys.add_files(
         "Fibre direction maps", fibre_direction_maps,
         "Fibre direction painted on the surface, instead of formulas: three maps, of its x, y "
@@ -246,9 +286,11 @@ namespace Exemplar
         {
           check_poissons_ratio(constants, section);
           check_orthotropy(constants, section);
-          if (constants.has_grain() && constants.fibre_direction.empty() && !has_maps)
+          if (constants.has_fibres() && constants.fibre_direction.empty() && !has_maps)
             throw UserError(section + "/"
-                            + (constants.orthotropy.empty() ? "Fibre stiffness" : "Orthotropy")
+                            + (!constants.orthotropy.empty() ? "Orthotropy"
+                               : constants.has_grain()       ? "Fibre stiffness"
+                                                             : "Fibre tension")
                             + " needs to know the direction of the fibres. Set " + section
                             + "/Fibre direction, such as 1; 0; 0.");
           if (!constants.fibre_direction.empty() && has_maps)

@@ -37,9 +37,23 @@ namespace Exemplar
     std::string cross_direction = {}; ///< formulas; empty: any that is perpendicular
     std::string orthotropy      = {}; ///< nine numbers; empty: isotropic
 
-    /// Whether cells need material axes.
+    std::string fibre_tension       = "0"; ///< T [Pa], a formula of x, y, z and t
+    std::string fibre_tension_curve = {};  ///< see TensionCurve; empty: constant
+
+    /// Whether the elasticity of cells has material axes.
     bool
     has_grain() const;
+
+    /// Whether cells have active fibres: a Fibre tension other than the number 0.
+    bool
+    has_tension() const;
+
+    /// Whether cells need material axes: they have a grain, or active fibres.
+    bool
+    has_fibres() const
+    {
+      return has_grain() || has_tension();
+    }
   };
 
   /// Whether the masses of neighbouring nodes are coupled, or lumped at the nodes.
@@ -57,14 +71,16 @@ namespace Exemplar
     std::map<unsigned int, ElasticConstants> regions;       ///< regions by material id
     std::map<std::string, ElasticConstants>  named_regions; ///< regions by name, as in the scene
     /// Painted maps, each with its mode of use; empty: none.
-    std::string              youngs_modulus_map, poissons_ratio_map, density_map, importance_map;
+    std::string youngs_modulus_map, poissons_ratio_map, density_map, importance_map,
+        fibre_tension_map;
     std::vector<std::string> fibre_direction_maps; ///< maps of x, y and z; empty: none
 
     bool
     is_painted() const
     {
       return !youngs_modulus_map.empty() || !poissons_ratio_map.empty() || !density_map.empty()
-             || !fibre_direction_maps.empty() || !importance_map.empty();
+             || !fibre_direction_maps.empty() || !importance_map.empty()
+             || !fibre_tension_map.empty();
     }
 
     /// Whether the importance factor differs between cells.
@@ -74,6 +90,14 @@ namespace Exemplar
     /// The law of corotational cells for these constants; none: isotropic.
     std::optional<CellLaw>
     law_of_grain() const;
+
+    /// Whether some section has active fibres.
+    bool
+    has_tension() const;
+
+    /// Whether some section needs material axes.
+    bool
+    has_fibres() const;
 
     /// All selections that fibre directions go from or to, each with its key.
     std::vector<std::pair<Selection, std::string>>

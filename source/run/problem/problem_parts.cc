@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/potential/fibre_tension_term.h>
 #include <exemplar/potential/inertia_term.h>
 #include <exemplar/potential/load_term.h>
 #include <exemplar/potential/obstacle_term.h>
@@ -190,9 +191,12 @@ namespace Exemplar
     if (loads != nullptr)
       terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space));
     if (obstacles != nullptr)
-      terms.push_back(std::make_unique<ObstacleTerm>(
-          *obstacles, *contact_surface, body.material, body.fe_space.rest_positions(),
-          integrator_of_terms));
+      terms.push_back(std::make_unique<ObstacleTerm>(*obstacles, *contact_surface, body.material,
+                                                     body.fe_space.rest_positions(),
+                                                     integrator_of_terms));
+    if (!body.material.tensions().sources.empty())
+      terms.push_back(
+          std::make_unique<FibreTensionTerm>(body.material, body.fe_space, held_tensions));
     if (!initial_stresses.empty())
       terms.push_back(std::make_unique<InitialStressTerm>(cells, body.fe_space, initial_stresses));
     return terms;

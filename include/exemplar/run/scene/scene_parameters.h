@@ -102,6 +102,9 @@ namespace Exemplar
     check_laws() const;
 
     void
+    check_tension() const;
+
+    void
     check_starts() const;
 
     void
