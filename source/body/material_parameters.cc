@@ -16,6 +16,49 @@ namespace Exemplar
     const EnumTable<MassMatrix> mass_matrices
         = { { MassMatrix::consistent, "consistent" }, { MassMatrix::lumped, "lumped" } };
 
+    /// Constants of a material with a name [Pa], [-], [kg/m^3], and where they are from.
+    struct KnownMaterial
+    {
+      const char *name, *youngs_modulus, *poissons_ratio, *density, *source;
+    };
+
+    const std::vector<KnownMaterial> known_materials
+        = { { "rubber", "2e6", "0.49", "930",
+              "natural rubber, Ashby, Materials Selection in Mechanical Design" },
+            { "silicone", "0.6e6", "0.49", "1080", "Dragon Skin 30, 100 % modulus, Smooth-On" },
+            { "foam", "0.5e6", "0.3", "30", "very light flexible polymer foam, Ashby" },
+            { "jelly", "3e3", "0.49", "1020", "dessert gelatine, of the order of magnitude alone" },
+            { "muscle", "12e3", "0.49", "1090",
+              "Engler et al. 2004, passive and across; density IT'IS" },
+            { "fat", "3.25e3", "0.49", "911", "Samani et al. 2007, adipose tissue; density IT'IS" },
+            { "skin", "0.42e6", "0.48", "1109", "Agache et al. 1980, in vivo; density IT'IS" },
+            { "wood", "11e9", "0.35", "420", "softwood C24 along the grain, EN 338" },
+            { "steel", "210e9", "0.3", "7850", "EN 1993-1-1" } };
+
+    EnumTable<MaterialPreset>
+    names_of_presets()
+    {
+      EnumTable<MaterialPreset> table{ { MaterialPreset::none, "none" } };
+      for (const KnownMaterial &material : known_materials)
+        table.emplace_back(static_cast<MaterialPreset>(table.size()), material.name);
+      return table;
+    }
+
+    const EnumTable<MaterialPreset> presets = names_of_presets();
+
+    std::string
+    documentation_of_presets()
+    {
+      std::string text = "What Young's modulus, Poisson's ratio and Density are where this section "
+                         "does not say: none "
+                         "(their own defaults)";
+      for (const KnownMaterial &material : known_materials)
+        text
+            += fmt::format("; {}: E {}, nu {}, rho {} ({})", material.name, material.youngs_modulus,
+                           material.poissons_ratio, material.density, material.source);
+      return text + ".";
+    }
+
     /// Constants by name of all laws beside Young's modulus, Poisson's ratio and density.
     std::map<std::string, LawConstant>
     constants_of_laws()
@@ -31,6 +74,7 @@ namespace Exemplar
     declare_constants(KeyTable &keys, ElasticConstants &constants)
     {
       const Bounds positive = Bounds::positive();
+      keys.add("Preset", constants.preset, presets, documentation_of_presets());
       keys.add("Young's modulus", constants.youngs_modulus, "E [Pa], greater than 0.", positive);
       keys.add("Poisson's ratio", constants.poissons_ratio,
                "nu [-], greater than -1 and less than 0.5.", Bounds{ -1., 0.5 });
@@ -109,6 +153,41 @@ namespace Exemplar
   ElasticConstants::has_grain() const
   {
     return own.at(Fibrous<double>::own_constants[0].name) > 0. || !orthotropy.empty();
+  }
+
+  std::vector<Assignment>
+  MaterialParameters::with_presets(const std::vector<Assignment> &assignments)
+  {
+    std::vector<Assignment> all;
+    for (const Assignment &a : assignments)
+      if (a.key == "Preset" && !a.subsections.empty() && a.subsections[0] == "Material"
+          && find_assignment(assignments, a.path()) == &a)
+        for (const KnownMaterial &material : known_materials)
+          if (a.value == material.name)
+          {
+            all.push_back({ a.subsections, "Young's modulus", material.youngs_modulus, a.place });
+            all.push_back({ a.subsections, "Poisson's ratio", material.poissons_ratio, a.place });
+            all.push_back({ a.subsections, "Density", material.density, a.place });
+          }
+    all.insert(all.end(), assignments.begin(), assignments.end());
+    return all;
+  }
+
+  std::vector<std::string>
+  MaterialParameters::describe_presets() const
+  {
+    std::vector<std::string> all;
+    for_each_section(
+        [&](const ElasticConstants &constants, const std::string &section)
+        {
+          if (constants.preset != MaterialPreset::none
+              && (&constants == &everywhere || constants.preset != everywhere.preset))
+            all.push_back(fmt::format(
+                "{}/Preset = {}: E {} Pa, nu {}, rho {} kg/m^3", section,
+                enum_name(constants.preset, presets), shortest_text(constants.youngs_modulus),
+                shortest_text(constants.poissons_ratio), shortest_text(constants.density)));
+        });
+    return all;
   }
 
   bool

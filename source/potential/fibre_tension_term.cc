@@ -327,6 +327,15 @@ namespace Exemplar
            + (scatter ? scatter->memory_consumption() : 0);
   }
 
+  const FibreTensionTerm *
+  find_tension_term(const PotentialTerms &terms)
+  {
+    for (const auto &term : terms)
+      if (const auto *found = dynamic_cast<const FibreTensionTerm *>(term.get()))
+        return found;
+    return nullptr;
+  }
+
   std::vector<std::string>
   describe_tensions(FibreTensionTerm          &term,
                     const Material            &material,

@@ -3,6 +3,7 @@
 #define exemplar_material_parameters_h
 
 #include <exemplar/kernels/cell_model.h>
+#include <exemplar/prm/assignments.h>
 
 #include <map>
 #include <optional>
@@ -22,9 +23,17 @@ namespace Exemplar
   OwnConstants
   default_own_constants();
 
+  /// Materials whose constants are known by a name; an index of the table of material_parameters.cc.
+  enum class MaterialPreset : unsigned int
+  {
+    none
+  };
+
   /// The constants of a material as a scene gives them.
   struct ElasticConstants
   {
+    MaterialPreset preset = MaterialPreset::none; ///< stands behind the three below
+
     double youngs_modulus = 1e6;  ///< E [Pa]
     double poissons_ratio = 0.45; ///< nu [-]
     double density        = 1000; ///< rho [kg/m^3]
@@ -90,6 +99,15 @@ namespace Exemplar
     /// The law of corotational cells for these constants; none: isotropic.
     std::optional<CellLaw>
     law_of_grain() const;
+
+    /// The assignments with, in front of them, those that "Preset = NAME" in Material and its regions stands for: keys
+    /// beside it, which come later, win.
+    static std::vector<Assignment>
+    with_presets(const std::vector<Assignment> &assignments);
+
+    /// What Preset stands for, in a sentence for each section that has one of its own.
+    std::vector<std::string>
+    describe_presets() const;
 
     /// Whether some section has active fibres.
     bool

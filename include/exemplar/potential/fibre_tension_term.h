@@ -162,6 +162,10 @@ namespace Exemplar
     std::optional<CellScatter> scatter; ///< since attach()
   };
 
+  /// The term among others; null: there is none.
+  const FibreTensionTerm *
+  find_tension_term(const PotentialTerms &terms);
+
   /// Sentences on what the tensions at these times [s] mean: fibres that shorten by most of their length. All processes must
   /// call this. Throws as set_time().
   std::vector<std::string>

@@ -123,10 +123,7 @@ namespace Exemplar
   void
   add_slope_of_tension(const Problem &problem, const Direction &direction, SlopeDerivatives &sums)
   {
-    const FibreTensionTerm *term = nullptr;
-    for (const auto &any : problem.potential.get_terms())
-      if (const auto *found = dynamic_cast<const FibreTensionTerm *>(any.get()))
-        term = found;
+    const FibreTensionTerm *term = find_tension_term(problem.potential.get_terms());
     if (term == nullptr)
       return;
     const FESpace &fe_space = problem.body.fe_space;

@@ -169,7 +169,7 @@ namespace Exemplar
   {
     const FibreTensions &of_material = body.material.tensions();
     const std::string    key         = "Material/Fibre tension";
-    if (of_material.sources.empty())
+    if (of_material.sources.empty() && !tensions.empty())
       throw UserError(
           parameters.name + ": no material has a " + key
           + ", so nobody knows which fibres are active. Set it in the scene, such as 1, and "

@@ -419,7 +419,7 @@ namespace Exemplar::Testing
     {
       for (const Strings &beside :
            { Strings{ "Material/Yield stress=1e9" },
-             Strings{ "Material/Relaxation time=1e9", "Material/Relaxing part=0.5" },
+             Strings{ "Material/Relaxation time=1e9", "Material/Relaxing share=0.5" },
              Strings{ "Model/Background=neo-hookean" }, Strings{ "Model/Strain=green" } })
       {
         Scene scene(statics(cube + sliding(false) + material(pulling)), beside);
