@@ -214,7 +214,7 @@ namespace Exemplar
              Directions                      &directions,
              std::vector<GrainAxes>          &axes)
     {
-      if (!constants.has_grain() || cells.empty())
+      if (!constants.has_fibres() || cells.empty())
         return;
       const auto               &along     = directions.along(constants, section);
       const bool                has_cross = !constants.cross_direction.empty();
@@ -290,7 +290,7 @@ namespace Exemplar
                   const std::vector<std::vector<double>> &painted,
                   std::vector<std::string>               &warnings)
   {
-    if (!parameters.law_of_grain())
+    if (!parameters.has_fibres())
       return {};
     std::map<unsigned int, std::vector<unsigned int>> cells; // cells of each material id
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)

@@ -125,6 +125,62 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// The subsection that a region was given by.
+    std::string
+    section_of(const MaterialParameters &parameters, const MshFile &names, const unsigned int id)
+    {
+      for (const auto &[name, constants] : parameters.named_regions)
+      {
+        const std::string section = "Material/" + MaterialParameters::region_name(name);
+        if (find_id(names, 3, name, section) == id)
+          return section;
+      }
+      return "Material/" + MaterialParameters::region_name(id);
+    }
+
+    /// Tensions of the sections, whose constants are `of_sections` by the indices that cells have.
+    FibreTensions
+    tensions_of(const std::vector<ElasticConstants> &of_sections,
+                const std::vector<std::string>      &sections,
+                const std::vector<unsigned int>     &section_of_cell,
+                std::vector<double>                  factors)
+    {
+      FibreTensions             all;
+      std::vector<unsigned int> source_of_section;
+      for (std::size_t i = 0; i < of_sections.size(); ++i)
+      {
+        const ElasticConstants &constants = of_sections[i];
+        if (constants.has_tension())
+          all.sources.push_back(
+              { sections[i], constants.fibre_tension, constants.fibre_tension_curve });
+        source_of_section.push_back(constants.has_tension() ? all.sources.size() : 0);
+      }
+      if (all.sources.empty())
+        return all;
+      for (const unsigned int section : section_of_cell)
+        all.of_cells.push_back(source_of_section[section]);
+      all.factors = std::move(factors);
+      return all;
+    }
+  } // namespace
+
+  FibreTensions
+  FibreTensions::part(const std::vector<unsigned int> &cells) const
+  {
+    FibreTensions result;
+    result.sources = sources;
+    for (const unsigned int cell : cells)
+    {
+      if (!of_cells.empty())
+        result.of_cells.push_back(of_cells[cell]);
+      if (!factors.empty())
+        result.factors.push_back(factors[cell]);
+    }
+    return result;
+  }
+
   Material::Material(const MaterialParameters        &parameters,
                      const std::vector<unsigned int> &material_ids,
                      const MshFile                   &names,
@@ -133,6 +189,7 @@ namespace Exemplar
       : constants_of_cell(material_ids.size(), 0), axes(std::move(axes_of_cells))
   {
     std::vector<ElasticConstants> bases{ parameters.everywhere };
+    std::vector<std::string>      sections{ "Material" };
     constants.push_back(constants_of(parameters.everywhere, shared_own(parameters.everywhere)));
     const std::set<unsigned int> ids(material_ids.begin(), material_ids.end());
     for (const auto &[id, region] : regions_by_id(parameters, names))
@@ -152,7 +209,9 @@ namespace Exemplar
       }
       constants.push_back(constants_of(region, shared_own(region)));
       bases.push_back(region);
+      sections.push_back(section_of(parameters, names, id));
     }
+    fibre_tensions = tensions_of(bases, sections, constants_of_cell, painted.fibre_tension.values);
     if (!painted.youngs_modulus.values.empty() || !painted.poissons_ratio.values.empty()
         || !painted.density.values.empty() || !painted.importance.values.empty())
       paint(painted, bases);
@@ -256,7 +315,8 @@ namespace Exemplar
     check_number(changed.density, constants_of_cell.size(), "Material/Density");
     Material         result;
     ElasticConstants values;
-    result.axes = axes;
+    result.axes           = axes;
+    result.fibre_tensions = fibre_tensions;
     result.constants.reserve(constants_of_cell.size());
     result.constants_of_cell.reserve(constants_of_cell.size());
     const OwnConstants *own = nullptr; // source of values.own
@@ -307,6 +367,7 @@ namespace Exemplar
   {
     Material                             result;
     std::map<unsigned int, unsigned int> number; // indices in the result, by index here
+    result.fibre_tensions = fibre_tensions.part(cells);
     for (const unsigned int cell : cells)
     {
       const unsigned int here = constants_of_cell[cell];

@@ -16,6 +16,49 @@ namespace Exemplar
     const EnumTable<MassMatrix> mass_matrices
         = { { MassMatrix::consistent, "consistent" }, { MassMatrix::lumped, "lumped" } };
 
+    /// Constants of a material with a name [Pa], [-], [kg/m^3], and where they are from.
+    struct KnownMaterial
+    {
+      const char *name, *youngs_modulus, *poissons_ratio, *density, *source;
+    };
+
+    const std::vector<KnownMaterial> known_materials
+        = { { "rubber", "2e6", "0.49", "930",
+              "natural rubber, Ashby, Materials Selection in Mechanical Design" },
+            { "silicone", "0.6e6", "0.49", "1080", "Dragon Skin 30, 100 % modulus, Smooth-On" },
+            { "foam", "0.5e6", "0.3", "30", "very light flexible polymer foam, Ashby" },
+            { "jelly", "3e3", "0.49", "1020", "dessert gelatine, of the order of magnitude alone" },
+            { "muscle", "12e3", "0.49", "1090",
+              "Engler et al. 2004, passive and across; density IT'IS" },
+            { "fat", "3.25e3", "0.49", "911", "Samani et al. 2007, adipose tissue; density IT'IS" },
+            { "skin", "0.42e6", "0.48", "1109", "Agache et al. 1980, in vivo; density IT'IS" },
+            { "wood", "11e9", "0.35", "420", "softwood C24 along the grain, EN 338" },
+            { "steel", "210e9", "0.3", "7850", "EN 1993-1-1" } };
+
+    EnumTable<MaterialPreset>
+    names_of_presets()
+    {
+      EnumTable<MaterialPreset> table{ { MaterialPreset::none, "none" } };
+      for (const KnownMaterial &material : known_materials)
+        table.emplace_back(static_cast<MaterialPreset>(table.size()), material.name);
+      return table;
+    }
+
+    const EnumTable<MaterialPreset> presets = names_of_presets();
+
+    std::string
+    documentation_of_presets()
+    {
+      std::string text = "What Young's modulus, Poisson's ratio and Density are where this section "
+                         "does not say: none "
+                         "(their own defaults)";
+      for (const KnownMaterial &material : known_materials)
+        text
+            += fmt::format("; {}: E {}, nu {}, rho {} ({})", material.name, material.youngs_modulus,
+                           material.poissons_ratio, material.density, material.source);
+      return text + ".";
+    }
+
     /// Constants by name of all laws beside Young's modulus, Poisson's ratio and density.
     std::map<std::string, LawConstant>
     constants_of_laws()
@@ -31,6 +74,7 @@ namespace Exemplar
     declare_constants(KeyTable &keys, ElasticConstants &constants)
     {
       const Bounds positive = Bounds::positive();
+      keys.add("Preset", constants.preset, presets, documentation_of_presets());
       keys.add("Young's modulus", constants.youngs_modulus, "E [Pa], greater than 0.", positive);
       keys.add("Poisson's ratio", constants.poissons_ratio,
                "nu [-], greater than -1 and less than 0.5.", Bounds{ -1., 0.5 });
@@ -50,6 +94,17 @@ namespace Exemplar
           "harmonic function that is 0 on the one and 1 on the other, as the fibres of muscles are "
           "drawn. It is the first axis of Orthotropy, too.",
           "; ");
+      keys.add(
+          "Fibre tension", constants.fibre_tension,
+          "T [Pa] with which fibres pull along Fibre direction, a formula of x, y, z [m] at rest, "
+          "taken at the centre "
+          "of a cell, and t [s], at least 0: of muscles 1e5 to 3e5. A step has that of its end.",
+          "; ");
+      keys.add("Fibre tension curve", constants.fibre_tension_curve,
+               "Force-length curve: factors of Fibre tension by the stretch of a fibre, 'stretch: "
+               "factor; stretch: factor; "
+               "...', linear between and constant outside, as 0.5: 0; 1: 1; 1.5: 0. Empty: 1.",
+               "; ");
       keys.add(
           "Orthotropy", constants.orthotropy,
           "E_1, E_2, E_3, nu_23, nu_13, nu_12, G_23, G_13, G_12 [Pa] and [-], separated by commas, "
@@ -100,6 +155,65 @@ namespace Exemplar
     return own.at(Fibrous<double>::own_constants[0].name) > 0. || !orthotropy.empty();
   }
 
+  std::vector<Assignment>
+  MaterialParameters::with_presets(const std::vector<Assignment> &assignments)
+  {
+    std::vector<Assignment> all;
+    for (const Assignment &a : assignments)
+      if (a.key == "Preset" && !a.subsections.empty() && a.subsections[0] == "Material"
+          && find_assignment(assignments, a.path()) == &a)
+        for (const KnownMaterial &material : known_materials)
+          if (a.value == material.name)
+          {
+            all.push_back({ a.subsections, "Young's modulus", material.youngs_modulus, a.place });
+            all.push_back({ a.subsections, "Poisson's ratio", material.poissons_ratio, a.place });
+            all.push_back({ a.subsections, "Density", material.density, a.place });
+          }
+    all.insert(all.end(), assignments.begin(), assignments.end());
+    return all;
+  }
+
+  std::vector<std::string>
+  MaterialParameters::describe_presets() const
+  {
+    std::vector<std::string> all;
+    for_each_section(
+        [&](const ElasticConstants &constants, const std::string &section)
+        {
+          if (constants.preset != MaterialPreset::none
+              && (&constants == &everywhere || constants.preset != everywhere.preset))
+            all.push_back(fmt::format(
+                "{}/Preset = {}: E {} Pa, nu {}, rho {} kg/m^3", section,
+                enum_name(constants.preset, presets), shortest_text(constants.youngs_modulus),
+                shortest_text(constants.poissons_ratio), shortest_text(constants.density)));
+        });
+    return all;
+  }
+
+  bool
+  ElasticConstants::has_tension() const
+  {
+    return parse_number(fibre_tension) != 0.; // NaN of a formula, too
+  }
+
+  bool
+  MaterialParameters::has_tension() const
+  {
+    bool has = false;
+    for_each_section([&](const ElasticConstants &constants, const std::string & /*section*/)
+                     { has |= constants.has_tension(); });
+    return has;
+  }
+
+  bool
+  MaterialParameters::has_fibres() const
+  {
+    bool has = false;
+    for_each_section([&](const ElasticConstants &constants, const std::string & /*section*/)
+                     { has |= constants.has_fibres(); });
+    return has;
+  }
+
   std::optional<CellLaw>
   MaterialParameters::law_of_grain() const
   {
@@ -124,7 +238,7 @@ namespace Exemplar
         {
           const std::string key = section + "/Fibre direction";
           if (const auto ends = split_fibre_ends(constants.fibre_direction, key);
-              ends && constants.has_grain() && fibre_direction_maps.empty())
+              ends && constants.has_fibres() && fibre_direction_maps.empty())
             for (const Selection &end : { ends->from, ends->to })
               all.emplace_back(end, key);
         });
@@ -205,6 +319,11 @@ namespace Exemplar
         "Importance painted on the surface: FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN] with a "
         "value from 0 to 1 for each vertex of Mesh/Surface, a factor of what this section "
         "and those of regions say.");
+    keys.add_file("Fibre tension map", fibre_tension_map,
+                  "Fibre tension painted on the surface: FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN] "
+                  "with a value from 0 to 1 for each vertex of Mesh/Surface, a factor of what this "
+                  "section and those "
+                  "of regions say.");
     keys.add_files(
         "Fibre direction maps", fibre_direction_maps,
         "Fibre direction painted on the surface, instead of formulas: three maps, of its x, y "
@@ -246,9 +365,11 @@ namespace Exemplar
         {
           check_poissons_ratio(constants, section);
           check_orthotropy(constants, section);
-          if (constants.has_grain() && constants.fibre_direction.empty() && !has_maps)
+          if (constants.has_fibres() && constants.fibre_direction.empty() && !has_maps)
             throw UserError(section + "/"
-                            + (constants.orthotropy.empty() ? "Fibre stiffness" : "Orthotropy")
+                            + (!constants.orthotropy.empty() ? "Orthotropy"
+                               : constants.has_grain()       ? "Fibre stiffness"
+                                                             : "Fibre tension")
                             + " needs to know the direction of the fibres. Set " + section
                             + "/Fibre direction, such as 1; 0; 0.");
           if (!constants.fibre_direction.empty() && has_maps)

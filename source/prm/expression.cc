@@ -33,18 +33,37 @@ namespace Exemplar
                         + "' holds a single '='. Write == to compare.");
     }
 
-    /// Whether a comma stands outside all parentheses, where it separates no arguments.
-    bool
-    has_outer_comma(const std::string &text)
+    /// The text with ';' for each comma outside all parentheses, where it separates no arguments.
+    std::string
+    with_semicolons(std::string text)
     {
       int depth = 0;
-      for (const char c : text)
+      for (char &c : text)
       {
         depth += c == '(' ? 1 : c == ')' ? -1 : 0;
         if (c == ',' && depth == 0)
-          return true;
+          c = ';';
       }
-      return false;
+      return text;
+    }
+
+    /// Whether there is such a comma.
+    bool
+    has_outer_comma(const std::string &text)
+    {
+      return with_semicolons(text) != text;
+    }
+
+    /// The formulas of a text, which ';' separates, or commas if that makes the wanted number of several.
+    std::vector<std::string>
+    split_formulas(const std::string &text, const unsigned int n_components)
+    {
+      std::vector<std::string> by_semicolons = split_trimmed(text, ';');
+      if (by_semicolons.size() == 1 && n_components > 1)
+        if (std::vector<std::string> by_commas = split_trimmed(with_semicolons(text), ';');
+            by_commas.size() == n_components)
+          return by_commas;
+      return by_semicolons;
     }
 
     /// Throws UserError for such a comma: muParser would drop the text before it.
@@ -68,7 +87,7 @@ namespace Exemplar
       if (texts.size() == n_components + 1 && texts.back().empty())
         return " Remove the ';' at the end.";
       if (texts.size() == 1 && has_outer_comma(texts[0]))
-        return " Commas do not separate formulas.";
+        return " The decimal sign is a point, as in 0.5.";
       if (texts.size() == 1 && n_components > 1)
         return std::string(are_of_places ? " They are for x, y and z; write 0 where nothing is."
                                          : "")
@@ -114,7 +133,7 @@ namespace Exemplar
     std::string
     place_among(const unsigned int i, const std::string &all, const unsigned int n)
     {
-      if (n == 1 || !split_trimmed(all, ';')[i].empty())
+      if (n == 1 || !split_formulas(all, n)[i].empty())
         return "";
       return fmt::format(", number {} of '{}',", i + 1, all);
     }
@@ -152,7 +171,7 @@ namespace Exemplar
       : parsers(std::make_unique<Parsers>())
   {
     parsers->key   = key;
-    parsers->texts = split_trimmed(text, ';');
+    parsers->texts = split_formulas(text, n_components);
     if (parsers->texts.size() != n_components)
       throw UserError(fmt::format(
           "{} = '{}' has {}{}{}, separated by ';'.{}", key, text, parsers->texts.size(),

@@ -163,13 +163,18 @@ namespace Exemplar
 
   template <typename Value, typename Pattern>
   void
-  KeyTable::add_pattern(DeclaredKey declared, Value &value, const Pattern &pattern)
+  KeyTable::add_pattern(DeclaredKey    declared,
+                        Value         &value,
+                        const Pattern &pattern,
+                        const bool     takes_semicolons)
   {
     using namespace dealii::Patterns::Tools;
     declared.default_value = Convert<Value>::to_string(value, pattern);
     insert(std::move(declared),
-           [&value, pattern](const std::string &text)
+           [&value, pattern, takes_semicolons](std::string text)
            {
+             if (takes_semicolons)
+               std::replace(text.begin(), text.end(), ';', ',');
              const bool allowed = pattern.match(text);
              if (allowed)
                value = Convert<Value>::to_value(text, pattern);
@@ -221,7 +226,7 @@ namespace Exemplar
                 const Bounds          &bounds)
   {
     add_pattern({ {}, key, "", "", documentation, three_in_words("numbers", bounds), false, true },
-                value, dealii::Patterns::List(real_number(bounds), 3, 3));
+                value, dealii::Patterns::List(real_number(bounds), 3, 3), true);
   }
 
   void
@@ -231,7 +236,7 @@ namespace Exemplar
                 const Bounds                &bounds)
   {
     add_pattern({ {}, key, "", "", documentation, three_in_words("integers", bounds), false, true },
-                value, dealii::Patterns::List(whole_number(bounds), 3, 3));
+                value, dealii::Patterns::List(whole_number(bounds), 3, 3), true);
   }
 
   void

@@ -145,6 +145,8 @@ namespace Exemplar
       if (problem.parameters.scene == SceneKind::statics
           && problem.parameters.material.has("Relaxation time"))
         notes.push_back("static scenes have no time: the Relaxing share of stresses has gone");
+      for (std::string &note : problem.parameters.material.describe_presets())
+        notes.push_back(std::move(note));
       std::string text;
       for (const std::string &note : notes)
         text += "Note      " + note + '\n';

@@ -80,6 +80,9 @@ array([2. , 0.5, 0.5]))" },
       { "Problem.gravity", R"(>>> problem.gravity = [0, 0, -9.81]
 >>> problem.gravity[2]
 -9.81)" },
+      { "Problem.set_tension", R"(>>> problem.set_tension(None) # as the scene says)" },
+      { "Problem.tension", R"(>>> problem.tension.max() # no fibres are active
+0.0)" },
       { "Problem.nodal_forces", R"(>>> forces = np.zeros((45, 3))
 >>> forces[problem.handles["right"], 1] = 2.5
 >>> problem.nodal_forces = forces)" },

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/potential/fibre_tension_term.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/module_parts.h>
@@ -7,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -36,6 +38,60 @@ namespace Exemplar::Python
                                       constants_of(density, "density", now) };
       held.change("set_material()",
                   [&changed](Problem &problem) { problem.set_material(changed); });
+    }
+
+    /// Of each cell [Pa]; 0 without active fibres.
+    std::vector<double>
+    tensions_of(const Problem &problem)
+    {
+      const FibreTensionTerm *const term = find_tension_term(problem.potential.get_terms());
+      return term != nullptr ? term->tensions() : std::vector<double>(problem.body.mesh.n_cells());
+    }
+
+    /// Tensions by cell of a dictionary by regions, as Material names them; those that it does not name keep theirs.
+    std::vector<double>
+    tensions_by_region(const Problem &problem, const py::dict &by_region)
+    {
+      const FibreTensions &tensions = problem.body.material.tensions();
+      std::vector<double>  all      = tensions_of(problem);
+      for (const auto &[name, value] : by_region)
+      {
+        const auto        key = py::cast<std::string>(py::str(name));
+        const std::string section
+            = key == "Material" ? key : "Material/" + MaterialParameters::region_name(key);
+        const auto source = std::find_if(tensions.sources.begin(), tensions.sources.end(),
+                                         [&](const FibreTensions::Source &one)
+                                         { return one.section == section; });
+        if (source == tensions.sources.end())
+        {
+          std::string names;
+          for (const FibreTensions::Source &one : tensions.sources)
+            names += (names.empty() ? "" : ", ") + one.section;
+          throw UserError("set_tension: there are no active fibres in " + section
+                          + ". Allowed: " + (names.empty() ? "none" : names)
+                          + ", without 'Material/region '; 'Material' is what no region is.");
+        }
+        const double number
+            = numbers_of(py::reinterpret_borrow<py::object>(value), "set_tension: " + key, 1)[0];
+        for (std::size_t cell = 0; cell < all.size(); ++cell)
+          if (tensions.of_cells[cell]
+              == 1 + static_cast<std::size_t>(source - tensions.sources.begin()))
+            all[cell] = number;
+      }
+      return all;
+    }
+
+    void
+    set_tension(HeldProblem &held, const py::object &object)
+    {
+      const Problem      &now = held.get();
+      std::vector<double> tensions;
+      if (py::isinstance<py::dict>(object))
+        tensions = tensions_by_region(now, py::reinterpret_borrow<py::dict>(object));
+      else if (!object.is_none())
+        tensions = numbers_of(object, "set_tension: tension", py::ssize_t(now.body.mesh.n_cells()));
+      held.change("set_tension()",
+                  [&tensions](Problem &problem) { problem.set_tension(tensions); });
     }
 
     double
@@ -216,6 +272,36 @@ namespace Exemplar::Python
     }
 
     void
+    add_tension(ProblemClass &problem)
+    {
+      problem.def("set_tension", &set_tension, py::arg("tension"),
+                  "set_tension(tension)\n\n"
+                  "From the next step on active fibres pull with this tension [Pa]: a number, an "
+                  "array (m,), one a\n"
+                  "cell, or a dictionary of numbers by the regions of Material, of which others "
+                  "keep theirs; None:\n"
+                  "as Material/Fibre tension says. Steps that are recorded may have different "
+                  "ones. Raises UserError,\n"
+                  "with nothing changed, for a scene without active fibres, other shapes, and "
+                  "negative numbers.");
+      refuse_other_arguments(problem, "set_tension",
+                             "set_tension is called as set_tension(tension).");
+      problem.def_property_readonly(
+          "tension",
+          [](const HeldProblem &held)
+          {
+            std::vector<double> values = tensions_of(held.get());
+            const auto          n      = static_cast<py::ssize_t>(values.size());
+            py::array_t<double> copy(n, values.data());
+            copy.attr("flags").attr("writeable") = false;
+            return copy;
+          },
+          "Tension (m,) [Pa] of the fibres of each cell at the end of the last step, or as it was "
+          "set since; 0\n"
+          "without active fibres. A copy, read only; set_tension() sets it.");
+    }
+
+    void
     add_loads(ProblemClass &problem)
     {
       problem.def_property(
@@ -298,6 +384,7 @@ namespace Exemplar::Python
   {
     add_material(problem);
     add_loads(problem);
+    add_tension(problem);
     add_damping(
         problem, "mass_damping", &TimeParameters::mass_damping,
         "Time/Mass damping [1/s], not negative. Setting it raises UserError unless dynamic.");

@@ -58,6 +58,7 @@ namespace Exemplar::Python
       digest.add_all(problem.body.fe_space.rest_positions());
       for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)
         digest.add_all(problem.examples.poses.pose(i));
+      digest.add_all(problem.actions.held_tensions);
       if (problem.actions.loads != nullptr)
         digest.add_all(problem.actions.loads->nodal_forces());
       for (unsigned int cell = 0; cell < problem.body.mesh.n_cells(); ++cell)

@@ -183,7 +183,14 @@ namespace Exemplar::Python
         handles.append(py::array_t<double>({ py::ssize_t(found.held_nodes.size()), py::ssize_t(3) },
                                            of_step.data()));
       result["handles_of_steps"] = handles;
-      result["held_nodes"]       = py::array_t<unsigned int>(py::ssize_t(found.held_nodes.size()),
+      if (!found.tension.empty())
+      {
+        py::list tension;
+        for (const std::vector<double> &of_step : found.tension)
+          tension.append(py::array_t<double>(py::ssize_t(of_step.size()), of_step.data()));
+        result["tension_of_steps"] = tension;
+      }
+      result["held_nodes"] = py::array_t<unsigned int>(py::ssize_t(found.held_nodes.size()),
                                                        found.held_nodes.data());
       if (found.mass_damping)
       {
@@ -307,6 +314,8 @@ namespace Exemplar::Python
           "  handles (n, 3)          by a displacement [m] of held nodes that is the same in all "
           "steps\n"
           "  held_nodes (h,)         the nodes of which a component is held\n"
+          "  tension_of_steps        a list of (m,), by the tension of each cell in each step; "
+          "with active fibres\n"
           "  handles_of_steps        a list of (h, 3), by their positions at the end of each step\n"
           "  weakly_active           a list of (step, weight), both from 0\n"
           "and of a dynamic scene, with all else where it is,\n"

@@ -54,6 +54,11 @@ class Examples(unittest.TestCase):
         self.assertGreater(work, 1)
         self.assertEqual(len(drags), 6)
 
+    def test_reach_by_muscles(self):
+        rows = rows_of("reach_by_muscles.py", "3")
+        self.assertLess(rows[-1][-1], 0.1)  # mm
+        self.assertGreater(rows[-1][0], rows[-1][1])
+
     def test_follow_markers(self):
         rows = rows_of("follow_markers.py", "2")
         self.assertEqual(len(rows), 2)

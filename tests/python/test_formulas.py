@@ -857,6 +857,26 @@ def plastic_density(e, last, accumulated, h, p):
 
 
 class OfViscoelasticBodies(Formulas):
+    def test_active_fibres(self):
+        """(44): energies and forces above and below the least stretch, along a curve and without one."""
+        a = np.array([1.0, 2, -1]) / np.sqrt(6)
+        gradients = np.linalg.inv(np.hstack([np.ones((4, 1)), NODES]))[1:].T
+        volume = np.linalg.det(NODES[1:] - NODES[0]) / 6
+        for curve, f in (("", lambda s: 1.0), ("0.5: 0.5; 1: 1; 2: 0", lambda s: np.interp(s, [0.5, 1, 2], [0.5, 1, 0]))):
+            for F in (I, I + np.array([[0.1, 0.3, -0.2], [0, -0.2, 0.1], [0.2, 0.1, 0.3]]), turn([1, 1, 2], 2.5) @ (I - 0.95 * np.outer(a, a))):
+                material = {"Young's modulus": YOUNG, "Poisson's ratio": NU, "Fibre direction": "1, 2, -1"}
+                passive, active = (make(scene(Material={**material, **more})) for more in
+                                   ({"Fibre direction": ""}, {"Fibre tension": "3e4 + 1e4*t", "Fibre tension curve": curve}))
+                x = NODES @ F.T
+                s = np.linalg.norm(F @ a)
+                grid = np.linspace(1, max(s, 0.1), 200001)
+                W = np.trapezoid([f(y) for y in grid], grid) if hasattr(np, "trapezoid") else np.trapz([f(y) for y in grid], grid)
+                factor = f(max(s, 0.1)) / max(s, 0.1)
+                W -= 0.5 * factor * (0.1**2 - s**2) if s < 0.1 else 0
+                self.assertAlmostEqual((active.energy(x) - passive.energy(x)) / (3e4 * volume * W or 1), float(W != 0), places=8)
+                forces = 3e4 * volume * factor * np.outer(gradients @ a, F @ a)
+                np.testing.assert_allclose(active.gradient(x) - passive.gradient(x), forces, atol=1e-9 * 3e4)
+
     def test_relaxing_cells(self):
         """(41) over two steps of a dynamic scene, with examples and without: energies, what is dissipated, and forces by differences."""
         h, tau, r = 0.01, 0.03, 0.4

@@ -126,7 +126,7 @@ SCENES = {
     "UTF-16": (prm(BAR).encode("utf-16"), ["saved as UTF-16", "UTF-8"]),
     # formulas
     "semicolon at the end": (left(Motion="0; 0; t;"), ["4 formulas", "Remove the ';' at the end"]),
-    "formulas by commas": (left(Motion="0, 0, t"), ["1 formula,", "Commas do not separate"]),
+    "decimal commas": (left(Motion="0,5, 0, t"), ["1 formula,", "decimal sign is a point"]),
     "one formula": (left(Motion="t"), ["for x, y and z"]),
     "decimal comma in a formula": (left(Motion="0,5*t; 0; 0"), ["'0,5*t' holds a comma", "decimal sign is a point"]),
     "power of Python": (left(Motion="t**2; 0; 0"), ["written x^2"]),

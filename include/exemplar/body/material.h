@@ -25,6 +25,7 @@ namespace Exemplar
   struct PaintedMaterial
   {
     PaintedConstant youngs_modulus = {}, poissons_ratio = {}, density = {}, importance = {};
+    PaintedConstant fibre_tension = {};
     /// Fibre direction, components x, y and z; empty: not painted.
     std::vector<std::vector<double>> fibre_direction = {};
   };
@@ -66,6 +67,37 @@ namespace Exemplar
           .mu &density &youngs_modulus &poissons_ratio &importance &numbers &lambda_of_others;
       if constexpr (Archive::is_loading::value)
         own = std::make_shared<const OwnConstants>(std::move(numbers));
+    }
+  };
+
+  /// What scenes say of the tension of fibres, by cell.
+  struct FibreTensions
+  {
+    /// Of a section of Material.
+    struct Source
+    {
+      std::string section, formula, curve; ///< see ElasticConstants
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, unsigned int /*version*/)
+      {
+        archive &section &formula &curve;
+      }
+    };
+
+    std::vector<Source>       sources;
+    std::vector<unsigned int> of_cells; ///< 1 + index of the source; 0: no tension; empty: none has
+    std::vector<double>       factors;  ///< painted, by cell; empty: 1
+
+    FibreTensions
+    part(const std::vector<unsigned int> &cells) const;
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, unsigned int /*version*/)
+    {
+      archive &sources &of_cells &factors;
     }
   };
 
@@ -150,7 +182,7 @@ namespace Exemplar
     void
     serialize(Archive &archive, unsigned int /*version*/)
     {
-      archive &constants &constants_of_cell &axes &stiffnesses;
+      archive &constants &constants_of_cell &axes &stiffnesses &fibre_tensions;
     }
 
     double
@@ -201,6 +233,13 @@ namespace Exemplar
       return axes.empty() ? GrainAxes() : axes[cell];
     }
 
+    /// How fibres pull; nothing if none does.
+    const FibreTensions &
+    tensions() const
+    {
+      return fibre_tensions;
+    }
+
     /// Young's modulus of C_e [Pa].
     double
     youngs_modulus_of_examples(const unsigned int cell) const
@@ -224,6 +263,7 @@ namespace Exemplar
     std::vector<unsigned int>           constants_of_cell;
     std::vector<GrainAxes>              axes;        ///< material axes by cell; empty: isotropic
     std::vector<std::array<double, 22>> stiffnesses; ///< numbers of C by cell; may be empty
+    FibreTensions                       fibre_tensions;
   };
 } // namespace Exemplar
 

@@ -3,6 +3,7 @@
 #define exemplar_material_parameters_h
 
 #include <exemplar/kernels/cell_model.h>
+#include <exemplar/prm/assignments.h>
 
 #include <map>
 #include <optional>
@@ -22,9 +23,17 @@ namespace Exemplar
   OwnConstants
   default_own_constants();
 
+  /// Materials whose constants are known by a name; an index of the table of material_parameters.cc.
+  enum class MaterialPreset : unsigned int
+  {
+    none
+  };
+
   /// The constants of a material as a scene gives them.
   struct ElasticConstants
   {
+    MaterialPreset preset = MaterialPreset::none; ///< stands behind the three below
+
     double youngs_modulus = 1e6;  ///< E [Pa]
     double poissons_ratio = 0.45; ///< nu [-]
     double density        = 1000; ///< rho [kg/m^3]
@@ -37,9 +46,23 @@ namespace Exemplar
     std::string cross_direction = {}; ///< formulas; empty: any that is perpendicular
     std::string orthotropy      = {}; ///< nine numbers; empty: isotropic
 
-    /// Whether cells need material axes.
+    std::string fibre_tension       = "0"; ///< T [Pa], a formula of x, y, z and t
+    std::string fibre_tension_curve = {};  ///< see TensionCurve; empty: constant
+
+    /// Whether the elasticity of cells has material axes.
     bool
     has_grain() const;
+
+    /// Whether cells have active fibres: a Fibre tension other than the number 0.
+    bool
+    has_tension() const;
+
+    /// Whether cells need material axes: they have a grain, or active fibres.
+    bool
+    has_fibres() const
+    {
+      return has_grain() || has_tension();
+    }
   };
 
   /// Whether the masses of neighbouring nodes are coupled, or lumped at the nodes.
@@ -57,14 +80,16 @@ namespace Exemplar
     std::map<unsigned int, ElasticConstants> regions;       ///< regions by material id
     std::map<std::string, ElasticConstants>  named_regions; ///< regions by name, as in the scene
     /// Painted maps, each with its mode of use; empty: none.
-    std::string              youngs_modulus_map, poissons_ratio_map, density_map, importance_map;
+    std::string youngs_modulus_map, poissons_ratio_map, density_map, importance_map,
+        fibre_tension_map;
     std::vector<std::string> fibre_direction_maps; ///< maps of x, y and z; empty: none
 
     bool
     is_painted() const
     {
       return !youngs_modulus_map.empty() || !poissons_ratio_map.empty() || !density_map.empty()
-             || !fibre_direction_maps.empty() || !importance_map.empty();
+             || !fibre_direction_maps.empty() || !importance_map.empty()
+             || !fibre_tension_map.empty();
     }
 
     /// Whether the importance factor differs between cells.
@@ -74,6 +99,23 @@ namespace Exemplar
     /// The law of corotational cells for these constants; none: isotropic.
     std::optional<CellLaw>
     law_of_grain() const;
+
+    /// The assignments with, in front of them, those that "Preset = NAME" in Material and its regions stands for: keys
+    /// beside it, which come later, win.
+    static std::vector<Assignment>
+    with_presets(const std::vector<Assignment> &assignments);
+
+    /// What Preset stands for, in a sentence for each section that has one of its own.
+    std::vector<std::string>
+    describe_presets() const;
+
+    /// Whether some section has active fibres.
+    bool
+    has_tension() const;
+
+    /// Whether some section needs material axes.
+    bool
+    has_fibres() const;
 
     /// All selections that fibre directions go from or to, each with its key.
     std::vector<std::pair<Selection, std::string>>

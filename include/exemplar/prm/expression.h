@@ -11,7 +11,7 @@
 
 namespace Exemplar
 {
-  /// Formulas of a scene file, separated by ';', evaluated by muParser.
+  /// Formulas of a scene file, separated by ';', or by commas outside of parentheses, evaluated by muParser.
   class Expression
   {
   public:

@@ -186,7 +186,10 @@ namespace Exemplar
 
     template <typename Value, typename Pattern>
     void
-    add_pattern(DeclaredKey declared, Value &value, const Pattern &pattern);
+    add_pattern(DeclaredKey    declared,
+                Value         &value,
+                const Pattern &pattern,
+                bool           takes_semicolons = false);
 
     void
     add_choice(const std::string              &key,

@@ -107,7 +107,9 @@ namespace Exemplar
       result.young   = negative(std::move(slope.by_young));
       result.poisson = negative(std::move(slope.by_poisson));
     }
-    result.density            = negative(std::move(slope.by_density));
+    result.density = negative(std::move(slope.by_density));
+    if (!slope.by_tension.empty())
+      result.tension = negative(std::move(slope.by_tension));
     result.nodal_forces       = negative(std::move(slope.by_nodal_forces));
     result.gravity            = negative(slope.by_gravity);
     const ExamplePoses &poses = problem.examples.poses;
@@ -135,7 +137,7 @@ namespace Exemplar
     bool all = std::isfinite(sum_of_others) && is_finite(found.density) && is_finite(found.handles)
                && is_finite(found.nodal_forces) && is_finite(found.gravity)
                && std::isfinite(found.importance.value_or(0.));
-    for (const auto *numbers : { &found.young, &found.poisson })
+    for (const auto *numbers : { &found.young, &found.poisson, &found.tension })
       all = all && (!*numbers || is_finite(**numbers));
     for (const Vector &pose : found.poses)
       all = all && is_finite(pose);

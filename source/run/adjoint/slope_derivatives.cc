@@ -231,6 +231,7 @@ namespace Exemplar
     add_slope_of_ridge(problem, direction, sums);
     add_slope_of_loads(problem, direction, sums);
     add_slope_of_contact(problem, direction, sums);
+    add_slope_of_tension(problem, direction, sums);
     return sums;
   }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/potential/fibre_tension_term.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
 namespace Exemplar
@@ -116,6 +117,42 @@ namespace Exemplar
         }
       sums.by_density[cell] += volume * work;
       sums.add_by_volume(cell, mass * work);
+    }
+  }
+
+  void
+  add_slope_of_tension(const Problem &problem, const Direction &direction, SlopeDerivatives &sums)
+  {
+    const FibreTensionTerm *term = find_tension_term(problem.potential.get_terms());
+    if (term == nullptr)
+      return;
+    const FESpace &fe_space = problem.body.fe_space;
+    const Vector  &x        = problem.state.positions;
+    sums.by_tension.assign(fe_space.n_cells(), 0.);
+    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+    {
+      const auto fibre = term->fibre(point, x);
+      if (!fibre)
+        continue;
+      const unsigned int    cell   = fe_space.cell_of(point);
+      const double          volume = fe_space.volume(point), tension = term->tensions()[cell];
+      const Matrix3<double> F      = fe_space.deformation_gradient(point, x),
+                            dF     = fe_space.deformation_gradient(point, direction.positions);
+      const Vector3<double> change = dF * fibre->rest,
+                            force  = fibre->change(change, Tangent::exact);
+      const double    slope        = fibre->force_factor * dot(fibre->now, change);
+      Matrix3<double> by_F, by_dF;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+        {
+          by_F[i][j]  = volume * tension * force[i] * fibre->rest[j];
+          by_dF[i][j] = volume * tension * fibre->force_factor * fibre->now[i] * fibre->rest[j];
+        }
+      add_forces(fe_space, point, by_F, sums.by_positions);
+      sums.by_tension[cell] += volume * slope;
+      sums.add_by_volume(cell, volume * tension * slope);
+      sums.add_by_shape_gradients(
+          cell, combine(1., transpose_times(F, by_F), 1., transpose_times(dF, by_dF)));
     }
   }
 } // namespace Exemplar

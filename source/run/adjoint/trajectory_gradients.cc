@@ -24,7 +24,9 @@ namespace Exemplar
     class Visit
     {
     public:
-      explicit Visit(Problem &problem) : problem(problem), obstacles(find_obstacle_term(problem))
+      explicit Visit(Problem &problem)
+          : problem(problem), own_tensions(problem.actions.held_tensions),
+            obstacles(find_obstacle_term(problem))
       {
         std::swap(own_state, problem.state); // a copy would leave views of others dangling
         if (obstacles != nullptr)
@@ -39,6 +41,7 @@ namespace Exemplar
       ~Visit()
       {
         std::swap(own_state, problem.state);
+        problem.actions.held_tensions = std::move(own_tensions);
         Evaluation evaluation; // discarded; evaluated to restore the rotations
         problem.potential.leave_step(problem.state);
         problem.potential.set_time(problem.state.time, problem.state);
@@ -51,10 +54,11 @@ namespace Exemplar
       void
       go_to(const State &start, const RecordedStep &step, Evaluation &evaluation)
       {
-        problem.state            = start;
-        problem.state.positions  = step.positions;
-        problem.state.velocities = step.velocities;
-        problem.state.weights    = step.weights;
+        problem.state                 = start;
+        problem.state.positions       = step.positions;
+        problem.state.velocities      = step.velocities;
+        problem.state.weights         = step.weights;
+        problem.actions.held_tensions = step.held_tensions;
         problem.potential.begin_step(start, step.size);
         problem.potential.set_time(step.time, problem.state);
         problem.potential.evaluate(problem.state, RotationUse::update, evaluation);
@@ -62,10 +66,11 @@ namespace Exemplar
       }
 
     private:
-      Problem           &problem;
-      State              own_state;
-      ObstacleTerm      *obstacles;
-      ObstacleTerm::Step own_step;
+      Problem            &problem;
+      State               own_state;
+      std::vector<double> own_tensions;
+      ObstacleTerm       *obstacles;
+      ObstacleTerm::Step  own_step;
     };
 
     void
@@ -90,6 +95,7 @@ namespace Exemplar
       add(some.by_young, to.by_young);
       add(some.by_poisson, to.by_poisson);
       add(some.by_density, to.by_density);
+      add(some.by_tension, to.by_tension);
       for (std::size_t cell = 0; cell < to.by_gradients.size(); ++cell)
       {
         to.by_gradients[cell] = combine(1., to.by_gradients[cell], 1., some.by_gradients[cell]);
@@ -129,6 +135,9 @@ namespace Exemplar
           state = { zeros(), zeros() };
         find_held_nodes();
         result.handles.assign(steps.size(), std::vector<double>(3 * result.held_nodes.size(), 0.));
+        if (problem.parameters.material.has_tension())
+          result.tension.assign(steps.size(),
+                                std::vector<double>(problem.body.fe_space.n_cells(), 0.));
       }
 
       TrajectoryGradients
@@ -213,6 +222,12 @@ namespace Exemplar
         const Vector of_handles = of_held(problem, by_state.positions, slope.by_positions);
         for (std::size_t k = 0; k < result.handles[i].size(); ++k)
           result.handles[i][k] = of_handles[3 * result.held_nodes[k / 3] + k % 3];
+        if (!slope.by_tension.empty())
+        {
+          result.tension[i] = slope.by_tension;
+          for (double &value : result.tension[i])
+            value = -value;
+        }
         add(slope, sum);
         by_mass_damping += of_motion.by_mass_damping;
         by_stiffness_damping += of_motion.by_stiffness_damping;
@@ -332,7 +347,8 @@ namespace Exemplar
     if (problem.get_changes().n != n_changes)
       broken = "it was changed by " + problem.get_changes().last;
     const State &end = problem.state;
-    steps.push_back({ end.time, size, end.positions, end.velocities, end.weights });
+    steps.push_back({ end.time, size, end.positions, end.velocities, end.weights,
+                      problem.actions.held_tensions });
   }
 
   void

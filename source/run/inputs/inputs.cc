@@ -140,6 +140,7 @@ namespace Exemplar
         add_map(scene.material.poissons_ratio_map, "Material/Poisson's ratio map");
         add_map(scene.material.density_map, "Material/Density map");
         add_map(scene.material.importance_map, "Material/Importance map");
+        add_map(scene.material.fibre_tension_map, "Material/Fibre tension map");
         for (const std::string &map : scene.material.fibre_direction_maps)
           add_map(map, "Material/Fibre direction maps");
         if (scene.examples.are_painted())

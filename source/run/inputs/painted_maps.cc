@@ -229,12 +229,16 @@ namespace Exemplar
     std::vector<double> importance;
     if (!m.importance_map.empty())
       importance = share(from, m.importance_map, "Material/Importance map");
+    std::vector<double> tension;
+    if (!m.fibre_tension_map.empty() && m.has_tension())
+      tension = share(from, m.fibre_tension_map, "Material/Fibre tension map");
     return { painted(from, "Young's modulus", m.youngs_modulus_map,
                      &ElasticConstants::youngs_modulus, 0., 1e300),
              painted(from, "Poisson's ratio", m.poissons_ratio_map,
                      &ElasticConstants::poissons_ratio, -1., 0.5),
              painted(from, "Density", m.density_map, &ElasticConstants::density, 0., 1e300),
              { importance },
+             { tension },
              direction };
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/body/pose_checks.h>
+#include <exemplar/potential/fibre_tension_term.h>
 #include <exemplar/run/problem/balance.h>
 #include <exemplar/run/problem/body_contact_start.h>
 #include <exemplar/run/problem/example_starts.h>
@@ -73,6 +74,7 @@ namespace Exemplar
                             given.fields.poses))
   {
     constraints.check(parameters, body, time_axis);
+    review_tensions();
     if (parameters.loads.balanced)
     {
       actions.initial_stresses = initial_stresses(parameters, body, examples, constraints,
@@ -108,6 +110,22 @@ namespace Exemplar
                                                time_axis.n_steps()));
       session->play(std::move(recorded.events), parameters.session);
     }
+  }
+
+  void
+  Problem::review_tensions()
+  {
+    if (body.material.tensions().sources.empty())
+      return;
+    constexpr unsigned int most = 100; // times to look at
+    std::vector<double>    times;
+    const unsigned int     n = time_axis.n_steps(), stride = 1 + n / most;
+    for (unsigned int step = 0; step < n; step += stride)
+      times.push_back(time_axis.time(step));
+    times.push_back(time_axis.time(n));
+    FibreTensionTerm term(body.material, body.fe_space, actions.held_tensions);
+    for (std::string &warning : describe_tensions(term, body.material, body.fe_space, times))
+      actions.warnings.push_back(std::move(warning));
   }
 
   void

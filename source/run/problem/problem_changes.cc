@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <utility>
 
 // Changes of a problem between its steps, and the updates that follow.
@@ -160,6 +161,43 @@ namespace Exemplar
     require_loads();
     changes.count("nodal_forces");
     actions.loads->set_nodal_forces(std::move(forces));
+    refresh(new_loads);
+  }
+
+  void
+  Problem::set_tension(std::vector<double> tensions)
+  {
+    const FibreTensions &of_material = body.material.tensions();
+    const std::string    key         = "Material/Fibre tension";
+    if (of_material.sources.empty() && !tensions.empty())
+      throw UserError(
+          parameters.name + ": no material has a " + key
+          + ", so nobody knows which fibres are active. Set it in the scene, such as 1, and "
+            "Material/Fibre direction.");
+    const std::size_t n = of_material.of_cells.size();
+    if (tensions.size() == 1)
+    {
+      const double value = tensions[0];
+      tensions.assign(n, 0.);
+      for (std::size_t cell = 0; cell < n; ++cell)
+        tensions[cell] = of_material.of_cells[cell] > 0 ? value : 0.;
+    }
+    if (!tensions.empty() && tensions.size() != n)
+      throw UserError(
+          fmt::format("{}: there are {} numbers for {} cells. Give one for all, or one a cell.",
+                      key, tensions.size(), n));
+    for (std::size_t cell = 0; cell < tensions.size(); ++cell)
+      if (const double T = tensions[cell]; !(T >= 0. && std::isfinite(T)))
+        throw UserError(fmt::format(
+            "{}: cell {}, counted from 0, would get {} Pa, but fibres do not push. Give at "
+            "least 0.",
+            key, cell, short_text(T)));
+      else if (T > 0. && of_material.of_cells[cell] == 0)
+        throw UserError(fmt::format(
+            "{}: cell {}, counted from 0, has no active fibres, which the scene says. Give 0 "
+            "there.",
+            key, cell));
+    actions.held_tensions = std::move(tensions);
     refresh(new_loads);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/potential/body_contact_term.h>
+#include <exemplar/potential/fibre_tension_term.h>
 #include <exemplar/potential/inertia_term.h>
 #include <exemplar/potential/load_term.h>
 #include <exemplar/potential/obstacle_term.h>
@@ -217,6 +218,9 @@ namespace Exemplar
     if (body_contacts != nullptr)
       terms.push_back(std::make_unique<BodyContactTerm>(*body_contacts, *contact_surface,
                                                         body.material, integrator_of_terms));
+    if (!body.material.tensions().sources.empty())
+      terms.push_back(
+          std::make_unique<FibreTensionTerm>(body.material, body.fe_space, held_tensions));
     if (!initial_stresses.empty())
       terms.push_back(std::make_unique<InitialStressTerm>(cells, body.fe_space, initial_stresses));
     return terms;

@@ -5,6 +5,7 @@
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/potential/body_contact_term.h>
 #include <exemplar/potential/obstacle_term.h>
+#include <exemplar/potential/fibre_tension_term.h>
 #include <exemplar/run/problem/example_starts.h>
 #include <exemplar/run/problem/state_review.h>
 
@@ -103,6 +104,30 @@ namespace Exemplar
           elements.size(), short_text(limit), list_numbers(elements));
     }
 
+    std::optional<std::string>
+    describe_crushed(const Problem &problem)
+    {
+      const FibreTensions &tensions = problem.body.material.tensions();
+      const auto           elements
+          = elements_with(problem,
+                          [&](const unsigned int cell, const Matrix3<double> &F)
+                          {
+                            if (tensions.of_cells.empty() || tensions.of_cells[cell] == 0)
+                              return false;
+                            const auto           &a = problem.body.material.grain_axes(cell).along;
+                            const Vector3<double> now = F * Vector3<double>{ { a[0], a[1], a[2] } };
+                            return std::sqrt(dot(now, now)) < TensionCurve::least_stretch;
+                          });
+      if (elements.empty())
+        return {};
+      return fmt::format(
+          "{} cells are shorter along their fibres than {} times their length at the end, where "
+          "tension no longer pulls as Material/Fibre tension says: element {}. Take a smaller "
+          "tension, "
+          "or a greater Young's modulus.",
+          elements.size(), short_text(TensionCurve::least_stretch), list_numbers(elements));
+    }
+
     /// Rotation [rad] beyond which the linear strain is no useful measure.
     constexpr double great_linear_turn = M_PI / 9.;
 
@@ -190,7 +215,8 @@ namespace Exemplar
     is_unloaded(const Problem &problem)
     {
       if (problem.parameters.scene != SceneKind::statics || problem.actions.loads != nullptr
-          || problem.actions.obstacles != nullptr || problem.examples.weights.are_prescribed())
+          || problem.actions.obstacles != nullptr || problem.parameters.material.has_tension()
+          || problem.examples.weights.are_prescribed())
         return false;
       const Vector &rest = problem.body.fe_space.rest_positions();
       Vector        held = rest;
@@ -270,8 +296,8 @@ namespace Exemplar
           n_unsettled, n_unsettled == 1 ? "step" : "steps", first_unsettled,
           allowed_change(problem), ObstacleTerm::max_renewals,
           has_friction_of_obstacles(problem) ? ", or a greater Lag tolerance" : ""));
-    for (const auto &warning :
-         { describe_stretched(problem), describe_turned(problem), describe_miss(problem) })
+    for (const auto &warning : { describe_stretched(problem), describe_turned(problem),
+                                 describe_miss(problem), describe_crushed(problem) })
       if (warning)
         all.push_back(*warning);
     // strains of 1e-4 are no rounding, unless cells or weights have memory

@@ -156,6 +156,22 @@ namespace Exemplar
           how_far, short_text(ratio));
     }
 
+    /// Warn of consistent masses in bodies that are heavier than stiff: a row of nodes beside a held one falls further than
+    /// freely, as the mass that it shares with the held nodes pushes, and elasticity is too soft to even that out.
+    Warning
+    review_coupled_masses(const Problem &problem, const BodyMeasures &measures)
+    {
+      const double ratio = measures.weight_over_stiffness(gravity_of(problem)) * measures.length();
+      if (problem.actions.mass == nullptr || problem.constraints.handles.size() == 0
+          || problem.parameters.material.mass_matrix == MassMatrix::lumped || !(ratio > 1.))
+        return {};
+      return fmt::format(
+          "This body is heavier than it is stiff (rho g L / E = {}): with coupled masses the nodes "
+          "beside a handle at "
+          "first fall further than freely, by a third. Set Material/Mass matrix = lumped.",
+          short_text(ratio));
+    }
+
     Warning
     review_step(const Problem &problem)
     {
@@ -330,8 +346,9 @@ namespace Exemplar
     const BodyMeasures   measures = measure(problem.body);
     std::vector<Warning> found    = { review_size(problem, measures) };
     if (masses_matter(problem))
-      found.insert(found.end(), { review_density(measures), review_stiffness(measures),
-                                  review_weight(problem, measures) });
+      found.insert(found.end(),
+                   { review_density(measures), review_stiffness(measures),
+                     review_weight(problem, measures), review_coupled_masses(problem, measures) });
     found.insert(found.end(),
                  { review_step(problem), review_frames(problem), review_damping(problem),
                    review_force(problem, measures), review_angles(problem, measures) });

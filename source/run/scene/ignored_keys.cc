@@ -110,10 +110,14 @@ namespace Exemplar
         { !has_pose_by_surface(scene),
           { "Examples/Attach" },
           "without a pose by a surface (.obj, .ply, .stl) in Examples/Poses. Remove it." },
-        { !scene.material.law_of_grain(),
+        { !scene.material.has_fibres(),
           { "Material/Fibre direction", "Material/Fibre direction maps" },
-          "without a Material/Fibre stiffness or Material/Orthotropy. Set one of these, or remove "
+          "without a Material/Fibre stiffness, Fibre tension or Orthotropy. Set one of these, or "
+          "remove "
           "it." },
+        { !scene.material.has_tension(),
+          { "Material/Fibre tension curve", "Material/Fibre tension map" },
+          "without a Material/Fibre tension. Set that, or remove it." },
         { scene.material.law_of_grain() != CellLaw::anisotropic,
           { "Material/Cross direction" },
           "without a Material/Orthotropy. Set that, or remove it." },

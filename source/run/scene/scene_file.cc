@@ -117,6 +117,7 @@ namespace Exemplar
     std::vector<Assignment> assignments
         = read_assignments(text, parameters.name, sections_of(keys.keys()));
     assignments.insert(assignments.end(), overrides.begin(), overrides.end());
+    assignments = MaterialParameters::with_presets(assignments);
 
     const auto first_named = std::stable_partition(
         assignments.begin(), assignments.end(), [](const Assignment &a) { return !is_named(a); });

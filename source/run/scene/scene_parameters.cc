@@ -97,9 +97,11 @@ namespace Exemplar
              { loads.ramp == LoadRamp::increments && scene != SceneKind::statics,
                "Loads/Ramp = increments lets loads grow with the increments of a static scene, but "
                "this scene has none. Set Loads/Ramp = none, and a Force that grows with t." },
-             { examples.need_fibres() && !material.law_of_grain(),
+             { examples.need_fibres() && !material.has_fibres(),
                "Examples/Acts on speaks of fibres, but no material has any. Set Material/Fibre "
-               "stiffness and Material/Fibre direction, or Examples/Acts on = all." } });
+               "stiffness or Fibre tension and Material/Fibre direction, or Examples/Acts on = "
+               "all." } });
+    check_tension();
     check_laws();
     check_starts();
     check_solver();
@@ -122,6 +124,27 @@ namespace Exemplar
           { output.keep_states && output.every == 0,
             "Output/Keep states = true keeps the state of each frame, but Output/Every = 0 makes "
             "no frames. Set Output/Every, or Output/Keep states = false." } });
+  }
+
+  void
+  CompleteScene::check_tension() const
+  {
+    if (!material.has_tension())
+      return;
+    const std::string key = "Material/Fibre tension ";
+    refuse({ { scene == SceneKind::interpolation,
+               key
+                   + "is a force, and an interpolation has none. Set Scene = static or dynamic, or "
+                     "Fibre tension = 0." },
+             { model.is_frozen() || solver.method == Method::one_pass
+                   || solver.method == Method::fixed_point,
+               key
+                   + "needs steps that minimise an energy. Set Model/Gradient = consistent and "
+                     "Solver/Method = auto, or Fibre tension = 0." },
+             { loads.balanced,
+               key
+                   + "is no load that initial stresses bear. Set Loads/Balanced = false, or Fibre "
+                     "tension = 0." } });
   }
 
   void

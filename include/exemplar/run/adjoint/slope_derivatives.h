@@ -36,6 +36,7 @@ namespace Exemplar
     std::vector<Matrix3<double>>       by_gradients;
     std::vector<std::array<double, 3>> by_constants;
     std::vector<double>                by_young, by_poisson, by_density; ///< by cell
+    std::vector<double>                by_tension; ///< of fibres, by cell; empty without
     double                             by_importance = 0.;
     Vector                             by_nodal_forces;
     std::array<double, 3>              by_gravity{};

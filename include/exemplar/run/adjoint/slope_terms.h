@@ -30,6 +30,10 @@ namespace Exemplar
   /// Slope of gravity and nodal forces.
   void
   add_slope_of_loads(const Problem &problem, const Direction &direction, SlopeDerivatives &sums);
+
+  /// Slope of the tension of fibres, whose directions and tensions belong to cells wherever these are.
+  void
+  add_slope_of_tension(const Problem &problem, const Direction &direction, SlopeDerivatives &sums);
 } // namespace Exemplar
 
 #endif

@@ -21,6 +21,7 @@ namespace Exemplar
     double              time, size;
     Vector              positions, velocities;
     std::vector<double> weights;
+    std::vector<double> held_tensions; ///< see FibreTensionTerm
   };
 
   /// The states of a problem from a first one on, for gradients through its steps.
@@ -87,6 +88,8 @@ namespace Exemplar
     /// in the order of held_nodes.
     std::vector<std::vector<double>> handles;
     std::vector<unsigned int>        held_nodes;
+    /// Gradients by the tension of each cell in each step; empty without active fibres.
+    std::vector<std::vector<double>> tension;
     std::optional<double>            mass_damping, stiffness_damping; ///< in dynamic scenes
     std::optional<Vector>            initial_positions;  ///< in those, and beside friction
     std::optional<Vector>            initial_velocities; ///< in dynamic scenes

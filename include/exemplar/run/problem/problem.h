@@ -79,6 +79,13 @@ namespace Exemplar
     void
     set_nodal_forces(Vector forces);
 
+    /// Between steps, let the fibres of each cell pull with these tensions [Pa], one for all active fibres or one a cell, at
+    /// all times; empty: as the scene says. Throws UserError, with nothing changed, for a scene without Material/Fibre
+    /// tension, for a wrong number, and for tensions that are negative or of cells without active fibres. It is no change
+    /// for steps that are recorded.
+    void
+    set_tension(std::vector<double> tensions);
+
     /// Between steps, replace the pose of example i, counted as the weights, by these positions of
     /// the nodes [m]. Handles that follow a pose keep the earlier one. Throws UserError, with
     /// nothing changed, for the rest pose, a missing example, and positions that are no valid pose.
@@ -179,6 +186,10 @@ namespace Exemplar
     /// problem_changes.cc.
     void
     refresh(unsigned int changed);
+
+    /// Warn of tensions of fibres that are too great. Throws SolverFailure for negative ones.
+    void
+    review_tensions();
 
     /// Let handles hold as in a step that begins at this time [s].
     void

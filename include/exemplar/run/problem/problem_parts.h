@@ -164,6 +164,7 @@ namespace Exemplar
     std::unique_ptr<BodyContacts>         body_contacts;    ///< with Contact/Self or Bodies
     std::unique_ptr<ContactSurface>       contact_surface;  ///< with obstacles or these
     PointStresses                         initial_stresses; ///< empty unless the body is balanced
+    std::vector<double>                   held_tensions;    ///< see FibreTensionTerm
     std::vector<OwnTerm>                  own_terms;        ///< in order of addition
     std::vector<std::string>              warnings;         ///< of all but own_terms
     std::vector<std::string>              notes;            ///< of obstacles that were set back

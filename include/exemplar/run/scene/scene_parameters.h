@@ -112,6 +112,9 @@ namespace Exemplar
     check_laws() const;
 
     void
+    check_tension() const;
+
+    void
     check_starts() const;
 
     void

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_fibre_tension_term_h
+#define exemplar_fibre_tension_term_h
+
+#include <exemplar/body/fe_space.h>
+#include <exemplar/body/material.h>
+#include <exemplar/potential/cell_scatter.h>
+#include <exemplar/potential/potential_term.h>
+#include <exemplar/prm/expression.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace Exemplar
+{
+  /// How the tension of a fibre depends on its stretch: a factor f that is linear between the stretches of a table and
+  /// constant outside of it. Below a least stretch the energy goes on as a parabola of equal slope, so that it is smooth.
+  class TensionCurve
+  {
+  public:
+    static constexpr double least_stretch = 0.1;
+
+    /// f = 1.
+    TensionCurve() = default;
+
+    /// Parse "stretch: factor; stretch: factor; ...", at least two, of ascending stretches above 0 and factors of at
+    /// least 0; empty: f = 1. Throws UserError, calling the text `key`, for anything else.
+    TensionCurve(const std::string &text, const std::string &key);
+
+    /// At a stretch: the integral of f from 1, f, and its derivative.
+    struct Value
+    {
+      double energy, force, slope;
+    };
+
+    Value
+    at(double stretch) const;
+
+  private:
+    /// The same without the parabola.
+    Value
+    of_table(double stretch) const;
+
+    std::vector<std::pair<double, double>> table;     ///< stretches and factors; empty: f = 1
+    std::vector<double>                    integrals; ///< of f, from the first stretch to each
+  };
+
+  /// Active fibres, Eq. (44): sum V T(t) W(|F a|) with the tension T of a cell at the end of a step, its fibres a at rest and
+  /// the integral W of its TensionCurve; |F a| - 1 without one.
+  class FibreTensionTerm : public PotentialTerm
+  {
+  public:
+    /// Tensions that are held [Pa], one a cell, replace those of the material; empty: none. All must outlive the term.
+    /// Throws UserError for tensions and curves that cannot be parsed.
+    FibreTensionTerm(const Material            &material,
+                     const FESpace             &fe_space,
+                     const std::vector<double> &held);
+
+    std::string
+    name() const override
+    {
+      return "fibre tension";
+    }
+
+    void
+    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs) override;
+
+    void
+    follow_parameters() override;
+
+    /// Throws SolverFailure for a negative tension.
+    void
+    set_time(double time) override;
+
+    bool
+    differs(double time, double other_time) const override;
+
+    void
+    add(const TermPoint &at, ElasticSums &sums) override;
+
+    /// Falling parts of curves are left out of a convex tangent.
+    void
+    add_tangent(const TermPoint     &at,
+                Tangent              kind,
+                std::vector<double> &values,
+                std::vector<double> &columns) override;
+
+    void
+    add_response(const TermPoint &at,
+                 Tangent          kind,
+                 const Vector    &displacement,
+                 ElasticSums     &sums) override;
+
+    void
+    append_columns(const double                                 energy,
+                   std::vector<std::pair<std::string, double>> &columns) const override
+    {
+      columns.emplace_back("energy_tension", energy);
+    }
+
+    NoGradients
+    no_gradients() const override
+    {
+      return {};
+    }
+
+    /// T of each cell [Pa] at the time that is set; 0 where there are no active fibres.
+    const std::vector<double> &
+    tensions() const
+    {
+      return tension;
+    }
+
+    /// The fibre of a point at positions, and what the energy W of its curve does.
+    struct Fibre
+    {
+      Vector3<double>     rest, now;    ///< a and F a
+      double              stretch;      ///< |F a|
+      double              force_factor; ///< of F a in dW / d(F a), also where that is 0
+      TensionCurve::Value curve;
+
+      /// The derivative of force_factor F a along a change of F a.
+      Vector3<double>
+      change(const Vector3<double> &of_now, Tangent kind) const;
+    };
+
+    /// None where the cell has no active fibres.
+    std::optional<Fibre>
+    fibre(unsigned int point, const Vector &positions) const;
+
+    std::size_t
+    memory_consumption() const override;
+
+  private:
+    /// A tension of the material, ready to be evaluated.
+    struct Law
+    {
+      Expression   formula;
+      bool         depends_on_place;
+      TensionCurve curve;
+    };
+
+    /// T of each cell with active fibres at a time [s].
+    std::vector<double>
+    tensions_at(double time) const;
+
+    /// Shape gradients along the fibre at a point, in the order of `nodes`.
+    void
+    along_fibre(unsigned int                          point,
+                dealii::ArrayView<const unsigned int> nodes,
+                std::vector<double>                  &shares) const;
+
+    const FibreTensions       &of_material;
+    const Material            &material;
+    const FESpace             &fe_space;
+    const std::vector<double> &held;
+    std::vector<Law>           laws; ///< in the order of FibreTensions::sources
+    std::vector<unsigned int>  active_cells;
+    std::vector<double>        tension;
+    double                     time = 0.;
+    std::optional<CellScatter> scatter; ///< since attach()
+  };
+
+  /// The term among others; null: there is none.
+  const FibreTensionTerm *
+  find_tension_term(const PotentialTerms &terms);
+
+  /// Sentences on what the tensions at these times [s] mean: fibres that shorten by most of their length. All processes must
+  /// call this. Throws as set_time().
+  std::vector<std::string>
+  describe_tensions(FibreTensionTerm          &term,
+                    const Material            &material,
+                    const FESpace             &fe_space,
+                    const std::vector<double> &times);
+} // namespace Exemplar
+
+#endif
