@@ -107,7 +107,7 @@ namespace Exemplar
     }
     catch (const UserError &error)
     {
-      const std::string remedy = remedy_of_content(file, beginning);
+      const std::string remedy = remedy_of_mesh(file, beginning);
       throw UserError(error.what() + (remedy.empty() ? "" : " " + remedy));
     }
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Format: https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
+#include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/mesh/formats/format_readers.h>
 #include <exemplar/mesh/formats/mesh_text.h>
@@ -98,7 +99,11 @@ namespace Exemplar
       [[noreturn]] void
       fail(const std::string &message) const
       {
-        MeshText(std::string(all.substr(0, std::min(at, all.size()))), name).fail(message);
+        if (at == std::string_view::npos) // all tags are read
+          throw UserError(name + ": " + message);
+        const auto line
+            = 1 + std::count(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+        throw UserError(fmt::format("{}: line {}: {}", name, line, message));
       }
 
       std::size_t
