@@ -120,6 +120,7 @@ namespace Exemplar
       {
         const std::string what  = fmt::format("face {} of {}", i + 1, n);
         const auto       &words = file.next_line(what);
+        file.text.integer_of(words[0], "the number of " + what);
         // after the marker stand the cells on both sides, and after three corners three middles
         if (words.size() < (is_marked ? 5U : 4U))
           file.require(is_marked ? 5 : 4, what);
@@ -153,6 +154,7 @@ namespace Exemplar
         const std::string what  = fmt::format("tetrahedron {} of {}", i + 1, n);
         const auto       &words = file.next_line(what);
         file.require(1 + n_nodes + n_attributes, what);
+        file.text.integer_of(words[0], "the number of " + what);
         std::vector<long long> nodes;
         for (std::size_t v = 0; v < n_nodes; ++v)
           nodes.push_back(file.text.integer_of(words[v + 1], what));

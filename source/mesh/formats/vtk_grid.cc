@@ -148,6 +148,12 @@ namespace Exemplar
     const VtkArray *
     choose_regions(const VtkGrid &grid, const std::string &name, MeshBuilder &builder)
     {
+      for (const VtkArray &array : grid.cell_arrays)
+        if (array.n_components == 1 && !holds_tags(array, grid.types.size())
+            && std::count(names_of_regions.begin(), names_of_regions.end(), array.name) > 0)
+          throw UserError(name + ": the cell array " + in_quotes(array.name)
+                          + " should give the regions, which are whole numbers from 0 on, one a "
+                            "cell. Correct it, or give it another name.");
       std::vector<const VtkArray *> possible;
       for (const VtkArray &array : grid.cell_arrays)
         if (holds_tags(array, grid.types.size()) && array.name != "gmsh:geometrical")
@@ -216,7 +222,9 @@ namespace Exemplar
       for (std::size_t v = 0; v < n_nodes; ++v)
       {
         const double node = grid.connectivity[static_cast<std::size_t>(begin) + v];
-        nodes.push_back(node >= 0. && node < 0x1p53 ? static_cast<long long>(node) : -1);
+        nodes.push_back(node >= 0. && node < 0x1p53 && node == std::floor(node)
+                            ? static_cast<long long>(node)
+                            : -1);
       }
       exchange_last_edges(nodes);
       const int tag = regions == nullptr ? 0 : static_cast<int>(regions->values[cell]);
