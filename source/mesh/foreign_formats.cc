@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later What gmsh and meshio convert:
 // https://gmsh.info/doc/texinfo/gmsh.html, https://github.com/nschloe/meshio
 #include <exemplar/mesh/foreign_formats.h>
+#include <exemplar/mesh/mesh_file.h>
 
 #include <algorithm>
 #include <cctype>
@@ -19,7 +20,6 @@ namespace Exemplar
       surface,
       readable_surface,
       packed,
-      frame,
       scene,
       geo,
       msh,
@@ -38,17 +38,16 @@ namespace Exemplar
     formats()
     {
       static const std::vector<Format> all = {
-        { "a legacy VTK file", Way::gmsh, { ".vtk" }, { "# vtk DataFile" } },
+        { "a legacy VTK file", Way::msh, { ".vtk" }, { "# vtk DataFile" } },
         { "an I-DEAS universal file", Way::gmsh, { ".unv" }, {} },
         { "a Nastran file", Way::gmsh, { ".bdf", ".nas" }, {} },
-        { "a Medit mesh", Way::gmsh, { ".mesh", ".meshb" }, { "MeshVersionFormatted" } },
-        { "an Abaqus file", Way::meshio, { ".inp" }, { "*HEADING", "*Heading", "*NODE", "*Node" } },
-        { "a VTK XML file",
-          Way::frame,
-          { ".vtu", ".vtp", ".pvd", ".pvtu" },
-          { "<VTKFile", "<?xml" } },
+        { "a Medit mesh", Way::msh, { ".mesh" }, { "MeshVersionFormatted" } },
+        { "a binary Medit mesh", Way::gmsh, { ".meshb" }, {} },
+        { "an Abaqus file", Way::msh, { ".inp" }, { "*HEADING", "*Heading", "*NODE", "*Node" } },
+        { "a VTK XML file", Way::msh, { ".vtu" }, { "<VTKFile", "<?xml" } },
+        { "a VTK XML file", Way::meshio, { ".vtp", ".pvd", ".pvtu" }, {} },
         { "an XDMF file", Way::meshio, { ".xdmf", ".xmf" }, {} },
-        { "a mesh of TetGen", Way::meshio, { ".node", ".ele" }, {} },
+        { "a mesh of TetGen", Way::msh, { ".node", ".ele" }, {} },
         { "a MED file", Way::meshio, { ".med" }, {} },
         { "an Exodus file", Way::meshio, { ".e", ".ex2", ".exo" }, {} },
         { "a CGNS file", Way::meshio, { ".cgns" }, {} },
@@ -61,10 +60,8 @@ namespace Exemplar
         { "an FBX file", Way::scene_of_others, { ".fbx" }, { "Kaydara FBX" } },
         { "an Alembic file", Way::scene_of_others, { ".abc" }, { "Ogawa" } },
         { "a glTF file", Way::scene_of_others, { ".gltf", ".glb" }, { "glTF" } },
-        { "a USD file",
-          Way::scene_of_others,
-          { ".usd", ".usda", ".usdc", ".usdz" },
-          { "PXR-USDC", "#usda" } },
+        { "a USD file", Way::scene_of_others, { ".usd", ".usdc", ".usdz" }, { "PXR-USDC" } },
+        { "a text of USD", Way::msh, { ".usda" }, { "#usda" } },
         { "a Collada file", Way::scene_of_others, { ".dae" }, {} },
         { "a file of Maya", Way::scene_of_others, { ".ma", ".mb" }, {} },
         { "a file of 3ds Max", Way::scene_of_others, { ".max", ".3ds" }, {} },
@@ -172,9 +169,6 @@ namespace Exemplar
         return "Convert it: gmsh " + old + " -save -format msh22 -o " + made;
       case Way::meshio:
         return "Convert it: " + by_meshio;
-      case Way::frame:
-        return "Frames of exemplar are not read back: take the run's final.msh. Convert others: "
-               + by_meshio;
       case Way::cad:
         return "Mesh it: gmsh -3 " + old + " -format msh22 -o " + made
                + "; its lengths are mostly millimetres, of which Mesh/Scale = 0.001 makes metres";
@@ -193,10 +187,12 @@ namespace Exemplar
       case Way::geo:
         return "gmsh makes a mesh of it if its name ends in .geo, in small letters";
       case Way::data:
-        return "Meshes are read from .msh (gmsh 2.2 or 4.1) and .geo, surfaces from .obj, .ply and "
-               ".stl. Arrays are taken from Python: exemplar.Problem(scene, mesh=(nodes, cells)), "
-               "and meshio writes them as .msh: meshio.Mesh(nodes, [(\"tetra\", "
-               "cells)]).write(\""
+        return "Meshes are read from " + mesh_extensions
+               + " and .geo, surfaces from .obj, .ply and "
+                 ".stl. Arrays are taken from Python: exemplar.Problem(scene, mesh=(nodes, "
+                 "cells)), "
+                 "and meshio writes them as .msh: meshio.Mesh(nodes, [(\"tetra\", "
+                 "cells)]).write(\""
                + file.stem().string() + ".msh\", file_format=\"gmsh22\")";
       default:
         return "";
@@ -209,8 +205,9 @@ namespace Exemplar
     {
       const std::vector<std::string> &endings = format.extensions;
       const bool is_right = std::count(endings.begin(), endings.end(), extension_of(file)) > 0;
-      const bool matters  = format.way == Way::gmsh || format.way == Way::cad
-                           || format.way == Way::meshio || format.way == Way::readable_surface;
+      const bool matters  = format.way == Way::gmsh || format.way == Way::msh
+                           || format.way == Way::cad || format.way == Way::meshio
+                           || format.way == Way::readable_surface;
       return is_right || !matters ? file : file.replace_extension(endings[0]);
     }
 
@@ -230,7 +227,11 @@ namespace Exemplar
   remedy_of_mesh(const std::filesystem::path &file, const std::string_view bytes)
   {
     const Format *const format = format_of(file, bytes);
-    return format == nullptr || format->way == Way::msh ? "" : remedy(format, file);
+    if (format == nullptr || format->way != Way::msh)
+      return remedy(format, file);
+    const std::filesystem::path named = with_right_name(*format, file);
+    return named == file ? ""
+                         : "It is " + format->name + ". Call it " + named.filename().string() + ".";
   }
 
   std::string
@@ -245,7 +246,6 @@ namespace Exemplar
     {
     case Way::gmsh:
     case Way::meshio:
-    case Way::frame:
       return what
              + ", not a surface that is read. If it holds a surface, write it as .ply in ParaView "
                "(open "
@@ -256,7 +256,7 @@ namespace Exemplar
     case Way::msh:
       return what
              + ", not a surface. It needs no filling: a scene names it by Mesh/File or, if it is a "
-               "pose, by Examples/Poses, with the ending .msh.";
+               "pose, by Examples/Poses.";
     case Way::cad:
     case Way::geo:
       return what + ". Make a surface of it: gmsh -2 " + quoted(name) + " -o "

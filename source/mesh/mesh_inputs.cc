@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/mesh/mesh_file.h>
 #include <exemplar/mesh/mesh_generation.h>
 #include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/mesh/quadratic_msh.h>
@@ -17,7 +18,7 @@ namespace Exemplar
     {
       const std::filesystem::path path(parameters.file);
       return path.extension() == ".geo" ? mesh_geo_file(path, parameters.allow_commands)
-                                        : read_msh(path);
+                                        : read_mesh_file(path);
     }
 
     /// Append an element between nodes that exist.
@@ -47,7 +48,8 @@ namespace Exemplar
     if (has_file == has_box)
       throw UserError(std::string("Mesh: ")
                       + (has_file ? "both File and Generator are given" : "no mesh is given")
-                      + ". Set Mesh/File to a .msh or .geo file or to a surface, or set "
+                      + ". Set Mesh/File to a mesh (" + mesh_extensions
+                      + ", .geo) or to a surface, or set "
                         "Mesh/Generator = box; exactly one of them.");
     if (has_box)
       return generate_box(parameters.box_size, parameters.box_cells);

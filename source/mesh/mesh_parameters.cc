@@ -27,15 +27,18 @@ namespace Exemplar
   MeshParameters::declare(KeyTable &keys)
   {
     keys.enter_subsection("Mesh");
-    keys.add_file("File", file,
-                  "The tetrahedral rest mesh: a gmsh .msh file of version 2.2 or 4.1, ASCII "
-                  "or binary, or a .geo file, which gmsh meshes (the result is kept in "
-                  "~/.cache/exemplar); one that could run programs or write files is refused, "
-                  "unless the command line says --allow-commands. Physical Volumes give material "
-                  "ids, Physical "
-                  "Surfaces boundary ids. Or a surface, .obj, .ply or .stl, which is filled with "
-                  "cells as by exemplar mesh (kept there, too; the mesh is written to the output "
-                  "as rest.msh). Leave it empty if Generator = box.");
+    keys.add_file(
+        "File", file,
+        "The tetrahedral rest mesh: .msh (gmsh 2.2 or 4.1, ASCII or binary), .mesh (Medit), .vtk, "
+        ".vtu, .node or .ele (TetGen), .inp (Abaqus, CalculiX: sets become regions, "
+        "boundaries and node sets), .usda (TetMesh), or a .geo file, which gmsh meshes (the result "
+        "is kept in "
+        "~/.cache/exemplar); one that could run programs or write files is refused, "
+        "unless the command line says --allow-commands. Physical Volumes give material "
+        "ids, Physical "
+        "Surfaces boundary ids. Or a surface, .obj, .ply or .stl, which is filled with "
+        "cells as by exemplar mesh (kept there, too; the mesh is written to the output "
+        "as rest.msh). Leave it empty if Generator = box.");
     keys.add("Cells", n_cells,
              "How many tetrahedra a surface is filled with, about, if File is one.",
              Bounds{ min_n_cells, max_n_cells });

@@ -3,6 +3,7 @@
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/mesh_edges.h>
+#include <exemplar/mesh/mesh_file.h>
 #include <exemplar/mesh/quadratic_msh.h>
 
 #include <fmt/core.h>
@@ -68,7 +69,7 @@ namespace Exemplar
   std::vector<dealii::Point<3>>
   read_pose(const std::filesystem::path &file, const MshFile &mesh, const std::string &mesh_name)
   {
-    MshFile           pose   = read_msh(file);
+    MshFile           pose   = read_mesh_file(file);
     const std::string prefix = file.string() + " is no pose of " + mesh_name + ": ";
     if (has_quadratic_tetrahedra(pose))
       return quadratic_pose(pose, mesh, prefix);

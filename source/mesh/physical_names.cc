@@ -80,7 +80,9 @@ namespace Exemplar
     for (const auto &[group, name] : mesh.physical_names)
       if (group.first == dimension && name == wanted)
         found.insert(static_cast<unsigned int>(std::abs(group.second)));
-    const std::string kind = dimension == 3 ? "Physical Volume" : "Physical Surface";
+    const std::string kind = dimension == 3   ? "Physical Volume"
+                             : dimension == 2 ? "Physical Surface"
+                                              : "Physical Point";
     if (found.empty()
         && (wanted.find(',') != std::string::npos
             || (wanted.find(' ') != std::string::npos

@@ -18,7 +18,7 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr int surface = 2, volume = 3; // dimensions of boundaries and regions
+    constexpr int point = 0, surface = 2, volume = 3; // dimensions of sets, boundaries and regions
 
     /// The id of a selection by id or name.
     unsigned int
@@ -89,6 +89,22 @@ namespace Exemplar
                                     "Physical Volume that tag, or change {}.",
                                     key, id, mesh.get_name(),
                                     list(std::set<unsigned int>(ids.begin(), ids.end())), key));
+      return { nodes.begin(), nodes.end() };
+    }
+
+    std::vector<unsigned int>
+    nodes_of_set(const Mesh &mesh, const unsigned int id, const std::string &key)
+    {
+      std::set<unsigned int> nodes;
+      for (const MshElement &element : mesh.get_contents().elements)
+        if (element.type == MshElementType::point
+            && std::abs(element.physical) == static_cast<int>(id))
+          nodes.insert(static_cast<unsigned int>(element.nodes[0]));
+      if (nodes.empty())
+        throw UserError(fmt::format("{}: the set {} has no nodes in {}. Sets are the Physical "
+                                    "Points of a .msh and the node sets "
+                                    "(*NSET) of an .inp.",
+                                    key, id, mesh.get_name()));
       return { nodes.begin(), nodes.end() };
     }
 
@@ -194,6 +210,8 @@ namespace Exemplar
       nodes = nodes_in_sphere(mesh, selection_numbers(words, 4, key));
     else if (words.kind == "region")
       nodes = nodes_of_region(mesh, id_in(words, volume, mesh, key), key);
+    else if (words.kind == "set")
+      nodes = nodes_of_set(mesh, id_in(words, point, mesh, key), key);
     else if (words.kind == "nodes")
       nodes = named_nodes(mesh, named, words.rest, key);
     else if (is_of_surface())

@@ -15,9 +15,9 @@
 
 namespace Exemplar
 {
-  const std::string selection_forms
-      = "box x0 y0 z0 x1 y1 z1 | sphere x y z r | boundary ID | region ID | nodes FILE | vertex N "
-        "[within D] | group NAME | map FILE [above X]";
+  const std::string selection_forms = "box x0 y0 z0 x1 y1 z1 | sphere x y z r | boundary ID | "
+                                      "region ID | set ID | nodes FILE | vertex N "
+                                      "[within D] | group NAME | map FILE [above X]";
 
   namespace
   {
@@ -127,8 +127,8 @@ namespace Exemplar
                                        { "node", "nodes" } })
       if (is_near(letters, other))
         return " Did you mean '" + usual_form(kind, text.substr(n_letters)) + "'?";
-    const std::string kind = nearest_word(
-        letters, { "box", "sphere", "boundary", "region", "nodes", "vertex", "group", "map" });
+    const std::string kind = nearest_word(letters, { "box", "sphere", "boundary", "region", "set",
+                                                     "nodes", "vertex", "group", "map" });
     return kind.empty() ? "" : " Did you mean '" + usual_form(kind, text.substr(n_letters)) + "'?";
   }
 

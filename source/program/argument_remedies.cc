@@ -2,6 +2,7 @@
 #include <exemplar/base/declared_options.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/mesh/mesh_file.h>
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/argument_remedies.h>
 
@@ -37,6 +38,8 @@ namespace Exemplar
       if (command == "export")
         return "exemplar export OUTPUT [OTHER_OUTPUT] --html FILE.html, or exemplar export OUTPUT "
                "--gltf FILE.glb";
+      if (command == "convert")
+        return "exemplar convert IN.inp OUT.msh";
       return command.empty() ? "exemplar SCENE.prm" : "exemplar " + command;
     }
 
@@ -185,7 +188,7 @@ namespace Exemplar
     is_mesh_name(const std::filesystem::path &file)
     {
       const std::string extension = file.extension().string();
-      return extension == ".msh" || extension == ".geo" || is_surface_file(file.string());
+      return is_mesh_file(file) || extension == ".geo" || is_surface_file(file.string());
     }
 
     /// Message on a second word where one scene is expected.
@@ -229,6 +232,10 @@ namespace Exemplar
       if (line.command == "export")
         return "A page shows one run, or two side by side; " + in_quotes(word)
                + " is one too many.";
+      if (line.command == "convert")
+        return line.positional.size() > 2
+                   ? "One mesh is read and one written; " + in_quotes(word) + " is one too many."
+                   : "";
       return in_quotes(word) + " stands without an option. Write: " + usage(line.command) + "."
              + (line.command == "mesh" && is_surface_file(word)
                     ? " Poses of the surface are given by --poses."

@@ -8,6 +8,7 @@
 #include <exemplar/base/standard_streams.h>
 #include <exemplar/base/version.h>
 #include <exemplar/base/whole_program.h>
+#include <exemplar/mesh/mesh_file.h>
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/argument_remedies.h>
 #include <exemplar/program/commands.h>
@@ -65,6 +66,7 @@ namespace Exemplar
       MeshCommandOptions mesh;
       PoseOptions        pose;
       ExportOptions      exported;
+      ConvertOptions     converted;
     };
 
     /// The last part of --help.
@@ -224,6 +226,19 @@ Exit status:
       return command;
     }
 
+    CLI::App &
+    declare_convert(CLI::App &app, Arguments &arguments)
+    {
+      CLI::App &command = add_command(app, "convert", "write a mesh in another format",
+                                      "bracket.inp bracket.msh");
+      command.add_option("IN", arguments.converted.input, "the mesh (" + mesh_extensions + ")")
+          ->required();
+      command
+          .add_option("OUT", arguments.converted.output, "the file to write (.msh .mesh .vtu .inp)")
+          ->required();
+      return command;
+    }
+
     int
     do_verify(const Arguments &arguments)
     {
@@ -313,11 +328,12 @@ Exit status:
     app.footer(footer("exemplar bar.prm --set Examples/Importance=0 --output plain"));
     app.require_subcommand(0, 1);
     declare_scene(app, arguments);
-    const CLI::App &study_command  = declare_study(app, arguments);
-    const CLI::App &verify_command = declare_verify(app, arguments);
-    const CLI::App &mesh_command   = declare_mesh(app, arguments);
-    const CLI::App &pose_command   = declare_pose(app, arguments);
-    const CLI::App &export_command = declare_export(app, arguments);
+    const CLI::App &study_command   = declare_study(app, arguments);
+    const CLI::App &verify_command  = declare_verify(app, arguments);
+    const CLI::App &mesh_command    = declare_mesh(app, arguments);
+    const CLI::App &pose_command    = declare_pose(app, arguments);
+    const CLI::App &export_command  = declare_export(app, arguments);
+    const CLI::App &convert_command = declare_convert(app, arguments);
     app.add_subcommand("live", "pull the body of a scene with the mouse, in a browser");
     try
     {
@@ -344,7 +360,7 @@ Exit status:
       throw UserError(message_of_arguments(app, error, { argv + 1, argv + argc }));
     }
     for (const CLI::App *command :
-         { &study_command, &mesh_command, &pose_command, &export_command })
+         { &study_command, &mesh_command, &pose_command, &export_command, &convert_command })
       if (*command)
         refuse_processes("exemplar " + command->get_name());
     if (arguments.validate || arguments.print)
@@ -373,6 +389,8 @@ Exit status:
       carry_poses(arguments.pose);
     else if (export_command)
       export_runs(arguments.exported);
+    else if (convert_command)
+      convert_mesh(arguments.converted);
     else
       do_scene(arguments);
     return 0;

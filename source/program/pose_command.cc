@@ -5,6 +5,7 @@
 #include <exemplar/base/missing_file.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/progress.h>
+#include <exemplar/mesh/mesh_file.h>
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/program/commands.h>
 #include <exemplar/program/interrupt.h>
@@ -82,7 +83,7 @@ namespace Exemplar
     void
     check_files(const PoseOptions &options)
     {
-      if (options.output.extension() == ".msh")
+      if (is_mesh_file(options.output))
         throw UserError("--output " + options.output.string()
                         + ": the name is that of a file, but poses are written "
                           "to a directory, each as NAME.msh by the name of its surface. Give the "
@@ -212,7 +213,7 @@ namespace Exemplar
     std::vector<PoseFile> poses = plan(options);
     for (const PoseFile &pose : poses)
       require_file(pose.file, "a pose: an .obj, .ply or .stl file", options.rest);
-    const Mesh        mesh(read_msh(options.mesh), options.mesh.string());
+    const Mesh        mesh(read_mesh_file(options.mesh), options.mesh.string());
     const RestSurface rest(options.rest);
     for (PoseFile &pose : poses)
       pose.surface = read_pose_surface(pose.file, rest);

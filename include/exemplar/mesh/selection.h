@@ -15,7 +15,7 @@ namespace Exemplar
   using NamedNodes = std::map<std::string, std::vector<unsigned int>>;
 
   /// A set of nodes named in a scene: box x0 y0 z0 x1 y1 z1 | sphere x y z r |
-  /// boundary ID | region ID | nodes FILE, or by the surface of the body: vertex N [within D] |
+  /// boundary ID | region ID | set ID | nodes FILE, or by the surface of the body: vertex N [within D] |
   /// group NAME | map FILE.
   struct Selection
   {

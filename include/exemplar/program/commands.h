@@ -72,6 +72,17 @@ namespace Exemplar
   void
   carry_poses(const PoseOptions &options);
 
+  /// Options of `exemplar convert`.
+  struct ConvertOptions
+  {
+    std::filesystem::path input, output;
+  };
+
+  /// Read a mesh and write it in the format of the output's extension; print what was read as what,
+  /// and what the format cannot hold. Throws UserError with nothing written.
+  void
+  convert_mesh(const ConvertOptions &options);
+
   /// Options of `exemplar export`. Either `html` or `gltf` is given.
   struct ExportOptions
   {

@@ -4,6 +4,7 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/map_name.h>
 #include <exemplar/mesh/mesh_arrays.h>
+#include <exemplar/mesh/mesh_file.h>
 #include <exemplar/run/inputs/inputs.h>
 #include <exemplar/run/scene/scene_parameters.h>
 #include <exemplar/surface/shape/triangle_surface.h>
@@ -48,9 +49,11 @@ namespace Exemplar
       {
         if (!scene.mesh.file.empty() && (is_to_be_filled(scene.mesh) || inputs.mesh.nodes.empty()))
           under_key("Mesh/File",
-                    [this] {
+                    [this]
+                    {
                       require_file(scene.mesh.file,
-                                   "a mesh (.msh or .geo) or of a surface (.obj, .ply or .stl)");
+                                   "a mesh (" + mesh_extensions
+                                       + ", .geo) or of a surface (.obj, .ply or .stl)");
                     });
         for_each_pose([this](const std::string &file) { check(file); });
         if (scene.needs_surface())
@@ -109,7 +112,7 @@ namespace Exemplar
       void
       check(const std::string &file)
       {
-        require_file(file, "a pose: a .msh file, or a surface",
+        require_file(file, "a pose: a mesh (" + mesh_extensions + "), or a surface",
                      is_surface_file(file) ? scene.mesh.surface_file() : scene.mesh.file);
         if (is_surface_file(file))
           surfaces.read_pose(file);

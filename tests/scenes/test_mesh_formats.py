@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes of other formats: the same body gives the same bytes, and bad files are refused by line and remedy."""
+
+import shutil
+import struct
+import unittest
+from pathlib import Path
+
+from exemplar_runner import SceneTest
+
+MESHES = Path(__file__).resolve().parent / "meshes"
+FALL = {"Scene": "dynamic", "Time/Step": "0.01", "Time/End": "0.05", "Handles/Names": "left",
+        "Handles/left/Select": "box -1 -1 -1 1e-9 1 1", "Loads/Gravity": "0, 0, -9.81", "Output/Every": "0"}
+
+
+def body():
+    """Nodes, and (type, tag, nodes from 0) of the elements, of box.msh."""
+    words = (MESHES / "box.msh").read_text().split("\n")
+    at = words.index("$Nodes")
+    nodes = [line.split()[1:] for line in words[at + 2:at + 2 + int(words[at + 1])]]
+    at = words.index("$Elements")
+    rows = [list(map(int, line.split())) for line in words[at + 2:at + 2 + int(words[at + 1])]]
+    return nodes, [(row[1], row[3], [n - 1 for n in row[5:]]) for row in rows]
+
+
+def write_tetgen(stem, first):
+    nodes, elements = body()
+    cells = [(tag, e) for kind, tag, e in elements if kind == 4]
+    faces = [(tag, e) for kind, tag, e in elements if kind == 2]
+    stem.with_suffix(".node").write_text(f"{len(nodes)} 3 0 0\n" + "".join(
+        f"{i + first} {' '.join(x)}\n" for i, x in enumerate(nodes)) + "# the end\n")
+    stem.with_suffix(".ele").write_text(f"{len(cells)} 4 1\n" + "".join(
+        f"{i + first} {' '.join(str(n + first) for n in e)} {tag}\n" for i, (tag, e) in enumerate(cells)))
+    stem.with_suffix(".face").write_text(f"{len(faces)} 1\n" + "".join(
+        f"{i + first} {' '.join(str(n + first) for n in e)} {tag}\n" for i, (tag, e) in enumerate(faces)))
+
+
+def write_usda(file):
+    nodes, elements = body()
+    points = ", ".join("({}, {}, {})".format(*x) for x in nodes)
+    cells = ", ".join("({}, {}, {}, {})".format(*e) for kind, _, e in elements if kind == 4)
+    file.write_text(f'#usda 1.0\ndef TetMesh "cells"\n{{\n    point3f[] points = [{points}]\n'
+                    f"    int4[] tetVertexIndices = [{cells}]\n}}\n")
+
+
+class MeshFormatsTest(SceneTest):
+    def nodes_after_fall(self, mesh, **settings):
+        run = self.call(self.scene({**FALL, "Mesh/File": str(mesh), **settings}), "--quiet", "--output", "out")
+        self.assertEqual(run.status, 0, run.stderr)
+        text = (self.directory / "out/final.msh").read_text()
+        shutil.rmtree(self.directory / "out")
+        return text[text.index("$Nodes"):text.index("$EndNodes")]
+
+    def scene(self, settings):
+        from exemplar_runner import write_scene
+        return write_scene(self.directory / "scene.prm", settings)
+
+    def refuses(self, name, text, *words):
+        """The message on a file of this text."""
+        file = self.directory / name
+        file.write_bytes(text if isinstance(text, bytes) else text.encode())
+        run = self.call(self.scene({**FALL, "Mesh/File": name}), "--validate")
+        self.assertEqual(run.status, 1, run.stdout)
+        for word in [name, *words]:
+            self.assertIn(word, run.stderr)
+
+    def test_the_same_body_in_all_formats(self):
+        expected = self.nodes_after_fall(MESHES / "box.msh")
+        files = [MESHES / name for name in ("gmsh.mesh", "gmsh.vtk", "gmsh.inp", "meshio.mesh", "meshio.vtk",
+                                            "meshio.vtu", "meshio.inp")]
+        for extension in ("msh", "mesh", "vtu", "inp"):
+            files.append(self.directory / f"own.{extension}")
+            run = self.call("convert", MESHES / "box.msh", files[-1])
+            self.assertEqual((run.status, run.stderr), (0, ""))
+        for first in (0, 1):
+            write_tetgen(self.directory / f"from{first}", first)
+            files += [self.directory / f"from{first}.node", self.directory / f"from{first}.ele"]
+        write_usda(self.directory / "by_hand.usda")
+        for file in [*files, self.directory / "by_hand.usda"]:
+            with self.subTest(file.name):
+                self.assertEqual(self.nodes_after_fall(file), expected)
+
+    def test_other_ends_of_lines(self):
+        expected = self.nodes_after_fall(MESHES / "box.msh")
+        for name in ("gmsh.mesh", "gmsh.vtk", "gmsh.inp"):
+            for end in (b"\r\n", b"\r"):
+                file = self.directory / ("ends" + Path(name).suffix)
+                file.write_bytes((MESHES / name).read_bytes().replace(b"\n", end))
+                with self.subTest(name, end=end):
+                    self.assertEqual(self.nodes_after_fall(file), expected)
+
+    def test_sets_of_abaqus(self):
+        text = (MESHES / "meshio.inp").read_text() + "*NSET, NSET=Held\n1, 2,\n3, 4\n*ELSET, ELSET=Stiff, GENERATE\n"
+        first = next(int(line.split(",")[0]) for line in text.split("TYPE=C3D4")[1].split("\n")[1:])
+        (self.directory / "sets.inp").write_text(text + f"{first}, {first + 3}, 1\n")
+        by_set = self.nodes_after_fall("sets.inp", **{"Handles/left/Select": "set Held"})
+        self.assertEqual(by_set, self.nodes_after_fall(MESHES / "box.msh"))
+        run = self.call(self.scene({**FALL, "Mesh/File": "sets.inp", "Handles/left/Select": "region Stiff"}), "--validate")
+        self.assertEqual(run.status, 0, run.stderr)
+
+    def test_poses_in_other_formats(self):
+        self.call("convert", MESHES / "box.msh", "pose.vtu")
+        expected = self.nodes_after_fall(MESHES / "box.msh")
+        self.assertEqual(self.nodes_after_fall(MESHES / "box.msh", **{"Initial/Pose": "pose.vtu"}), expected)
+
+    def test_files_that_are_cut_off(self):
+        for name in ("gmsh.mesh", "gmsh.vtk", "meshio.vtk", "meshio.vtu"):
+            with self.subTest(name):
+                data = (MESHES / name).read_bytes()
+                self.refuses("cut" + Path(name).suffix, data[:len(data) // 2], "again")
+
+    def test_bad_files(self):
+        self.refuses("a.inp", "*INCLUDE, INPUT=b.inp\n", "line 1", "*INCLUDE is not read", "Put the text")
+        self.refuses("a.inp", "*NODE\n1, 0, 0, 0\n*TRANSFORM, NSET=A\n", "line 3", "*TRANSFORM is not read")
+        self.refuses("a.inp", "*Part, name=A\n", "*PART is not read", "without parts")
+        self.refuses("a.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n", "element 1 uses node 2")
+        self.refuses("a.inp", "*NODE\n1,0,0,0\n*ELEMENT, TYPE=COH3D8\n", "'COH3D8'", "C3D4")
+        self.refuses("a.mesh", "MeshVersionFormatted 2\nDimension 2\n", "line 2", "Dimension is 2")
+        self.refuses("a.mesh", struct.pack("i", 1), "MeshVersionFormatted", "save it as text")
+        self.refuses("a.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n", "POLYDATA", "ParaView")
+        self.refuses("a.vtu", '<VTKFile type="PolyData">', "'PolyData'", "UnstructuredGrid")
+        self.refuses("a.vtu", '<VTKFile type="UnstructuredGrid" compressor="vtkLZ4DataCompressor">', "vtkLZ4DataCompressor")
+        self.refuses("a.node", "1 3 0 0\n1 0 0 0\n", "a.ele", "there is no such file")
+        self.refuses("a.usda", '#usda 1.0\ndef Mesh "a" {}\n', "def TetMesh")
+        self.refuses("a.vtk", (MESHES / "gmsh.mesh").read_bytes(), "It is a Medit mesh. Call it a.mesh.")
+
+    def test_what_convert_refuses(self):
+        for out, word in (("a.vtk", "meshes are written as .msh, .mesh, .vtu and .inp"), ("none/a.msh", "no directory")):
+            run = self.call("convert", MESHES / "box.msh", out)
+            self.assertEqual((run.status, run.stdout), (1, ""))
+            self.assertIn(word, run.stderr)
+        run = self.call("convert", MESHES / "box.msh", "a.mesh")
+        self.assertIn("Names of groups are left out", run.stdout)
+        run = self.call("convert", MESHES / "box.msh", "a.mesh")
+        self.assertIn("is there already", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
