@@ -89,8 +89,8 @@ namespace Exemplar::Testing
     TEST(Material, PaintIsAFactorOfEachRegionOrStandsInstead)
     {
       MaterialParameters parameters;
-      parameters.everywhere = { 100., .25, 10. };
-      parameters.regions[2] = { 300., .25, 20. };
+      parameters.everywhere = { MaterialPreset::none, 100., .25, 10. };
+      parameters.regions[2] = { MaterialPreset::none, 300., .25, 20. };
       const PaintedMaterial painted{ { { 1., 2., 3. }, true }, {}, { { 5., 6., 7. }, false } };
       const Material        material(parameters, { 1, 2, 2 }, {}, painted);
       const double          moduli[3] = { 100., 600., 900. };

@@ -20,7 +20,7 @@ namespace Exemplar::Testing
   {
     using Strings = std::vector<std::string>;
 
-    const std::string cube = Verification::box({ { 1., 1., 1. } }, { { 2, 2, 2 } });
+    const std::string active_cube = Verification::box({ { 1., 1., 1. } }, { { 2, 2, 2 } });
 
     const std::string solved
         = "subsection Solver\n set Tolerance = 1e-12\n set Step tolerance = 1e-12\nend\n";
@@ -59,7 +59,7 @@ namespace Exemplar::Testing
         = "subsection Handles\n set Names = left\n" + held_left + "end\n";
 
     double
-    column(const Problem &problem, const std::string &name)
+    column_of(const Problem &problem, const std::string &name)
     {
       for (const StatisticsCell &cell : Diagnostics(problem).row(problem.state, SolveReport()))
         if (cell.column == name)
@@ -91,7 +91,7 @@ namespace Exemplar::Testing
             {
               if (law == "linear" && alpha > 0.)
                 continue;
-              Scene scene(statics(cube + sliding(false) + material(pulling)),
+              Scene scene(statics(active_cube + sliding(false) + material(pulling)),
                           { "Material/Poisson's ratio=" + nu, "Model/Strain=" + law,
                             "Model/Element=" + element,
                             "Material/Fibre stiffness=" + std::to_string(alpha) });
@@ -110,11 +110,11 @@ namespace Exemplar::Testing
     {
       for (const std::string element : { "P1", "P2" })
       {
-        Scene scene(statics(cube + sliding(true) + material(pulling)),
+        Scene scene(statics(active_cube + sliding(true) + material(pulling)),
                     { "Model/Element=" + element, "Material/Poisson's ratio=0.45" });
         scene.solve();
         // a cube free at its sides is pulled to nothing: it stays as it is
-        EXPECT_NEAR(column(scene.problem, "reaction_right_x"), 2e5, 2e-4);
+        EXPECT_NEAR(column_of(scene.problem, "reaction_right_x"), 2e5, 2e-4);
         EXPECT_LT(max_difference(scene.problem.state.positions,
                                  scene.problem.body.fe_space.rest_positions()),
                   1e-10);
@@ -128,7 +128,7 @@ namespace Exemplar::Testing
       Scene scene("set Scene = dynamic\nsubsection Time\n set Step = 0.1\n set End = 1\nend\n"
                   + solved + bar + held + material(pulling));
       scene.solve();
-      EXPECT_NEAR(column(scene.problem, "reaction_right_x"), 2e5, 2e-4);
+      EXPECT_NEAR(column_of(scene.problem, "reaction_right_x"), 2e5, 2e-4);
     }
 
     TEST(FibreTension, ACubeWithoutStiffnessHangsByItsFibresTension)
@@ -136,7 +136,7 @@ namespace Exemplar::Testing
       // a weight pulls to the right with less, the same, more force than the tension
       for (const double force : { 1e5, 2e5, 3e5 })
       {
-        Scene scene(statics(cube + sliding(false) + material(pulling)
+        Scene scene(statics(active_cube + sliding(false) + material(pulling)
                             + "subsection Loads\n set Names = tip\n subsection tip\n set Select = "
                               "boundary 2\n set Force = "
                             + std::to_string(force) + "*t; 0; 0\n end\nend\n"),
@@ -151,7 +151,7 @@ namespace Exemplar::Testing
     TEST(FibreTension, ACurveGivesTheLengthWhereForcesBalance)
     {
       Scene scene(
-          statics(cube + sliding(false) + material(pulling)),
+          statics(active_cube + sliding(false) + material(pulling)),
           { "Material/Fibre tension curve=0.5: 0; 1: 1; 1.5: 0", "Material/Poisson's ratio=0" });
       scene.solve();
       // E (l - 1) + T 2 (l - 1/2) = 0
@@ -193,7 +193,7 @@ namespace Exemplar::Testing
     void
     check_derivatives(const Strings &overrides)
     {
-      Scene                                  scene(statics(cube + clamped_left
+      Scene                                  scene(statics(active_cube + clamped_left
                                                            + material("set Fibre direction = 1 + y; 0.4*x; z - 0.3\nset Fibre "
                                                                                                        "tension = 3e5 + 1e5*x*t\n")),
                                                    overrides);
@@ -241,7 +241,7 @@ namespace Exemplar::Testing
 
     TEST(FibreTension, AFreeBodyFeelsNoForceAndNoTorque)
     {
-      Scene            scene(statics(cube + clamped_left
+      Scene            scene(statics(active_cube + clamped_left
                                      + material("set Fibre direction = 1 + y; 0.4*x; z - 0.3\nset Fibre "
                                                            "tension = 3e5 + 1e5*x\n")));
       Problem         &problem = scene.problem;
@@ -372,7 +372,7 @@ namespace Exemplar::Testing
 
     TEST(FibreTension, WhatItCannotBeIsRefusedInWords)
     {
-      const std::string good = statics(cube + sliding(false) + material(pulling));
+      const std::string good = statics(active_cube + sliding(false) + material(pulling));
       EXPECT_EQ(refusal(good), "");
       expect_contains(refusal(good, { "Material/Fibre tension=0.3-t" }), "fibres do not push");
       expect_contains(refusal(good, { "Material/Fibre tension=-5" }), "fibres do not push");
@@ -388,7 +388,7 @@ namespace Exemplar::Testing
       Scene scene(good);
       EXPECT_THROW(scene.problem.set_tension({ -1. }), UserError);
       EXPECT_THROW(scene.problem.set_tension({ 1., 2. }), UserError);
-      EXPECT_THROW(Scene(statics(cube + sliding(false))).problem.set_tension({ 1. }), UserError);
+      EXPECT_THROW(Scene(statics(active_cube + sliding(false))).problem.set_tension({ 1. }), UserError);
     }
 
     TEST(FibreTension, GreatTensionsAreWarnedOf)
@@ -396,7 +396,7 @@ namespace Exemplar::Testing
       const auto warnings = [](const std::string &tension)
       {
         Strings of_tension;
-        for (const std::string &warning : Scene(statics(cube + sliding(false) + material(pulling)),
+        for (const std::string &warning : Scene(statics(active_cube + sliding(false) + material(pulling)),
                                                 { "Material/Fibre tension=" + tension })
                                               .problem.warnings())
           if (warning.find("Material/Fibre tension is up to") == 0)
@@ -406,7 +406,7 @@ namespace Exemplar::Testing
       EXPECT_TRUE(warnings("7e5").empty());
       ASSERT_EQ(warnings("8.5e5*t").size(), 1u);
       expect_contains(warnings("8.5e5*t")[0], "0.15 of its length");
-      Scene scene(statics(cube + sliding(false) + material(pulling), 4),
+      Scene scene(statics(active_cube + sliding(false) + material(pulling), 4),
                   { "Material/Fibre tension=9.7e5", "Material/Poisson's ratio=0" });
       scene.solve();
       bool is_said = false;
@@ -426,7 +426,7 @@ namespace Exemplar::Testing
              Strings{ "Material/Relaxation time=1e9", "Material/Relaxing share=0.5" },
              Strings{ "Model/Background=neo-hookean" }, Strings{ "Model/Strain=green" } })
       {
-        Scene scene(statics(cube + sliding(false) + material(pulling)), beside);
+        Scene scene(statics(active_cube + sliding(false) + material(pulling)), beside);
         scene.solve();
         EXPECT_LT(
             Verification::mean_displacement(scene.problem, scene.problem.state, "boundary 2")[0],

@@ -56,7 +56,7 @@ namespace Exemplar::Testing
       scene.scene                  = SceneKind::statics;
       scene.mesh.scale             = 0.5;
       scene.examples.poses         = { stretched, sheared };
-      scene.material.regions[2]    = ElasticConstants{ 2e6, 0.3, 1000. };
+      scene.material.regions[2]    = ElasticConstants{ MaterialPreset::none, 2e6, 0.3, 1000. };
       scene.initial.pose           = sheared;
       scene.time.increments        = 2;
       scene.loads.gravity          = { { 0., 0., -1. } };

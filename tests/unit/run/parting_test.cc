@@ -28,7 +28,7 @@ namespace Exemplar::Testing
       scene.handles.emplace_back();
       scene.handles[0].name        = "left";
       scene.handles[0].select.text = "boundary 1";
-      scene.material.regions[2]    = ElasticConstants{ 2e6, 0.3, 500. };
+      scene.material.regions[2]    = ElasticConstants{ MaterialPreset::none, 2e6, 0.3, 500. };
       Inputs inputs;
       inputs.mesh = generate_box({ { 6., 2., 2. } }, { { 6, 2, 2 } });
       for (MshElement &cell : inputs.mesh.elements)

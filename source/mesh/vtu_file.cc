@@ -2,9 +2,9 @@
 // Format: https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
-#include <exemplar/mesh/formats/format_readers.h>
-#include <exemplar/mesh/formats/mesh_text.h>
-#include <exemplar/mesh/formats/vtk_grid.h>
+#include <exemplar/mesh/format_readers.h>
+#include <exemplar/mesh/mesh_text.h>
+#include <exemplar/mesh/vtk_grid.h>
 
 #include <fmt/core.h>
 #include <zlib.h>

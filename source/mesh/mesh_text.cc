@@ -2,7 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/number_text.h>
-#include <exemplar/mesh/formats/mesh_text.h>
+#include <exemplar/mesh/mesh_text.h>
 
 #include <fmt/core.h>
 

@@ -2,7 +2,7 @@
 #ifndef exemplar_vtk_grid_h
 #define exemplar_vtk_grid_h
 
-#include <exemplar/mesh/formats/mesh_builder.h>
+#include <exemplar/mesh/mesh_builder.h>
 
 #include <string>
 #include <string_view>

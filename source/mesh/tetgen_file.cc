@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Format: H. Si, TetGen's manual, section "File formats".
-#include <exemplar/mesh/formats/format_readers.h>
-#include <exemplar/mesh/formats/mesh_builder.h>
-#include <exemplar/mesh/formats/mesh_text.h>
+#include <exemplar/mesh/format_readers.h>
+#include <exemplar/mesh/mesh_builder.h>
+#include <exemplar/mesh/mesh_text.h>
 
 #include <fmt/core.h>
 

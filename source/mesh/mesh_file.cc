@@ -3,9 +3,9 @@
 #include <exemplar/base/missing_file.h>
 #include <exemplar/base/text_file.h>
 #include <exemplar/mesh/foreign_formats.h>
-#include <exemplar/mesh/formats/format_readers.h>
-#include <exemplar/mesh/formats/mesh_text.h>
+#include <exemplar/mesh/format_readers.h>
 #include <exemplar/mesh/mesh_file.h>
+#include <exemplar/mesh/mesh_text.h>
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 #include <exemplar/base/atomic_file.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
-#include <exemplar/mesh/formats/mesh_builder.h>
-#include <exemplar/mesh/formats/mesh_text.h>
+#include <exemplar/mesh/mesh_builder.h>
 #include <exemplar/mesh/mesh_file.h>
+#include <exemplar/mesh/mesh_text.h>
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // Types of cells and orders of their nodes: VTK User's Guide, "VTK File Formats".
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
-#include <exemplar/mesh/formats/vtk_grid.h>
+#include <exemplar/mesh/vtk_grid.h>
 
 #include <fmt/core.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/mesh/formats/mesh_builder.h>
+#include <exemplar/mesh/mesh_builder.h>
 
 #include <fmt/core.h>
 

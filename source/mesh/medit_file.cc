@@ -2,9 +2,9 @@
 // Format: P. Frey, "MEDIT: an interactive mesh visualization software", INRIA RT-0253 (2001), and
 // libMeshb's documentation.
 #include <exemplar/base/errors.h>
-#include <exemplar/mesh/formats/format_readers.h>
-#include <exemplar/mesh/formats/mesh_builder.h>
-#include <exemplar/mesh/formats/mesh_text.h>
+#include <exemplar/mesh/format_readers.h>
+#include <exemplar/mesh/mesh_builder.h>
+#include <exemplar/mesh/mesh_text.h>
 
 #include <fmt/core.h>
 

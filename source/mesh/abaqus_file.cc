@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Format: Abaqus Keywords Reference Guide; CalculiX CrunchiX USER'S MANUAL.
 #include <exemplar/base/message_text.h>
-#include <exemplar/mesh/formats/format_readers.h>
-#include <exemplar/mesh/formats/mesh_builder.h>
-#include <exemplar/mesh/formats/mesh_text.h>
+#include <exemplar/mesh/format_readers.h>
+#include <exemplar/mesh/mesh_builder.h>
+#include <exemplar/mesh/mesh_text.h>
 
 #include <fmt/core.h>
 

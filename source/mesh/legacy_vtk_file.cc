@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Format: VTK User's Guide, "VTK File Formats", and VTK's documentation of version 5.1.
-#include <exemplar/mesh/formats/format_readers.h>
-#include <exemplar/mesh/formats/mesh_text.h>
-#include <exemplar/mesh/formats/vtk_grid.h>
+#include <exemplar/mesh/format_readers.h>
+#include <exemplar/mesh/mesh_text.h>
+#include <exemplar/mesh/vtk_grid.h>
 
 #include <fmt/core.h>
 

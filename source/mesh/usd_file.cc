@@ -2,9 +2,9 @@
 // Format: OpenUSD, "USDA file format" and schema UsdGeomTetMesh.
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
-#include <exemplar/mesh/formats/format_readers.h>
-#include <exemplar/mesh/formats/mesh_builder.h>
-#include <exemplar/mesh/formats/mesh_text.h>
+#include <exemplar/mesh/format_readers.h>
+#include <exemplar/mesh/mesh_builder.h>
+#include <exemplar/mesh/mesh_text.h>
 
 #include <fmt/core.h>
 
