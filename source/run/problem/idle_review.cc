@@ -96,9 +96,9 @@ namespace Exemplar
   {
     std::vector<std::string> notes = problem.actions.notes;
     if (problem.parameters.scene != SceneKind::interpolation && problem.actions.loads == nullptr
-        && problem.parameters.session.empty() && may_rest(problem.examples)
-        && !problem.body.exchange().any(!is_at_rest(problem)) && !is_any_handle_moved(problem)
-        && !any_obstacle_moves(problem))
+        && !problem.parameters.material.has_tension() && problem.parameters.session.empty()
+        && may_rest(problem.examples) && !problem.body.exchange().any(!is_at_rest(problem))
+        && !is_any_handle_moved(problem) && !any_obstacle_moves(problem))
       notes.push_back("nothing will happen: no handle moves, no load acts, and the body starts at "
                       "rest (Handles/NAME/Motion, Loads/Gravity, Loads/Names)");
     const ExampleWeights &weights = problem.examples.weights;
