@@ -32,7 +32,7 @@ for _ in range(8):
     print(*(f"{number:8.3f}" for number in (*tension / 1e3, 100 * place[0], 100 * place[2], 1e3 * abs(place[2] - wish))))
     by_positions = np.zeros_like(problem.positions)
     by_positions[hand, 2] = 1 / hand.sum()  # of the hand's height
-    by_cell = problem.vjp(by_positions)["tension"]
+    by_cell = problem.vjp(by_positions)["fibre_tension"]
     slope = np.array([by_cell[of_muscle].sum() for of_muscle in cells])
     step = slope * (wish - place[2]) / (slope @ slope)  # Newton's, the shortest
     tension = np.maximum(tension + np.clip(step, -3e3, 3e3), 0)

@@ -82,10 +82,17 @@ namespace Exemplar::Python
     }
 
     void
-    set_tension(HeldProblem &held, const py::object &object)
+    set_tension(HeldProblem &held, const py::object &region, const py::object &value)
     {
       const Problem      &now = held.get();
       std::vector<double> tensions;
+      py::object          object = region;
+      if (!value.is_none())
+      {
+        py::dict one;
+        one[py::str(region)] = value;
+        object               = one;
+      }
       if (py::isinstance<py::dict>(object))
         tensions = tensions_by_region(now, py::reinterpret_borrow<py::dict>(object));
       else if (!object.is_none())
@@ -274,18 +281,21 @@ namespace Exemplar::Python
     void
     add_tension(ProblemClass &problem)
     {
-      problem.def("set_tension", &set_tension, py::arg("tension"),
-                  "set_tension(tension)\n\n"
-                  "From the next step on active fibres pull with this tension [Pa]: a number, an "
-                  "array (m,), one a\n"
-                  "cell, or a dictionary of numbers by the regions of Material, of which others "
-                  "keep theirs; None:\n"
-                  "as Material/Fibre tension says. Steps that are recorded may have different "
-                  "ones. Raises UserError,\n"
-                  "with nothing changed, for a scene without active fibres, other shapes, and "
-                  "negative numbers.");
-      refuse_other_arguments(problem, "set_tension",
-                             "set_tension is called as set_tension(tension).");
+      problem.def(
+          "set_tension", &set_tension, py::arg("region"), py::arg("value") = py::none(),
+          "set_tension(region, value=None)\n\n"
+          "From the next step on the active fibres of a region, a name or id of Material, pull "
+          "with this\n"
+          "tension [Pa]; others keep theirs. Alone the argument is the tension: a number, an "
+          "array (m,), one a\n"
+          "cell, or a dictionary of numbers by regions; None: as Material/Fibre tension says. "
+          "Steps that are\n"
+          "recorded may have different ones. Raises UserError, with nothing changed, for a "
+          "scene without active\n"
+          "fibres, other shapes, and negative numbers.");
+      refuse_other_arguments(
+          problem, "set_tension",
+          "set_tension is called as set_tension(region, value), or set_tension(tension).");
       problem.def_property_readonly(
           "tension",
           [](const HeldProblem &held)

@@ -94,7 +94,7 @@ namespace Exemplar::Python
     }
     result["density"] = numbers(found.density);
     if (found.tension)
-      result["tension"] = numbers(*found.tension);
+      result["fibre_tension"] = numbers(*found.tension);
     if (found.importance)
       result["importance"] = *found.importance;
     py::list poses;
@@ -175,7 +175,7 @@ namespace Exemplar::Python
         "from its derivatives dJ_dx (n, 3) and dJ_dw (k,) there; None: zero. For any number of\n"
         "parameters it takes one linear system. The dictionary has, as arrays of their own,\n"
         "  young, poisson, density (m,), by cell\n"
-        "  tension (m,)            by cell, 0 where no fibres are active; with active fibres\n"
+        "  fibre_tension (m,)      by cell, 0 where no fibres are active; with active fibres\n"
         "  importance              a float; with examples\n"
         "  poses                   a list of (n, 3), of all examples but the rest pose\n"
         "  rest_positions (n, 3)   with handles, poses and nodal forces where they are; it is not\n"

@@ -188,7 +188,7 @@ namespace Exemplar::Python
         py::list tension;
         for (const std::vector<double> &of_step : found.tension)
           tension.append(py::array_t<double>(py::ssize_t(of_step.size()), of_step.data()));
-        result["tension_of_steps"] = tension;
+        result["fibre_tension"] = tension;
       }
       result["held_nodes"] = py::array_t<unsigned int>(py::ssize_t(found.held_nodes.size()),
                                                        found.held_nodes.data());
@@ -314,7 +314,7 @@ namespace Exemplar::Python
           "  handles (n, 3)          by a displacement [m] of held nodes that is the same in all "
           "steps\n"
           "  held_nodes (h,)         the nodes of which a component is held\n"
-          "  tension_of_steps        a list of (m,), by the tension of each cell in each step; "
+          "  fibre_tension           a list of (m,), by the tension of each cell in each step; "
           "with active fibres\n"
           "  handles_of_steps        a list of (h, 3), by their positions at the end of each step\n"
           "  weakly_active           a list of (step, weight), both from 0\n"

@@ -38,7 +38,7 @@ ARGUMENTS = {
     "scene": "str | os.PathLike[str] | Mapping[str, Any]", "mesh": "Sequence[ArrayLike]", "poses": "Sequence[ArrayLike]",
     "name": "str", "kind": "str", "dt": "float", "time": "float", "i": "int", "step": "int", "port": "int", "record": "str | os.PathLike[str]",
     "nodes": "ArrayLike", "positions": "ArrayLike", "velocities": "ArrayLike", "weights": "ArrayLike", "values": "ArrayLike",
-    "young": "ArrayLike", "poisson": "ArrayLike", "density": "ArrayLike", "tension": "ArrayLike | Mapping[str, float] | None",
+    "young": "ArrayLike", "poisson": "ArrayLike", "density": "ArrayLike", "region": "str | int | ArrayLike | Mapping[str, float] | None", "value": "float | None",
     "dJ_dx": "ArrayLike | Sequence[ArrayLike | None] | None",
     "dJ_dw": "ArrayLike | Sequence[ArrayLike | None] | None", "dJ_dv": "Sequence[ArrayLike | None] | None",
     "set_motion.function": "Callable[[NDArray[np.float64], float], ArrayLike]",

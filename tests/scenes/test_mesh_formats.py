@@ -51,6 +51,17 @@ class MeshFormatsTest(SceneTest):
         shutil.rmtree(self.directory / "out")
         return text[text.index("$Nodes"):text.index("$EndNodes")]
 
+    def check_fall(self, file, expected):
+        """The same bytes; of gmsh's .mesh and .inp, whose numbers have 14 digits, the same places to what a step is solved to."""
+        found = self.nodes_after_fall(file)
+        if not Path(file).name.startswith(("gmsh.mesh", "gmsh.inp", "ends.mesh", "ends.inp")):
+            return self.assertEqual(found, expected)
+        found, expected = ([[float(word) for word in line.split()] for line in text.split("\n")[2:-1]] for text in (found, expected))
+        self.assertEqual(len(found), len(expected))
+        for a, b in zip(found, expected):
+            self.assertEqual(a[0], b[0])
+            self.assertLess(max(abs(x - y) for x, y in zip(a, b)), 1e-6)
+
     def scene(self, settings):
         from exemplar_runner import write_scene
         return write_scene(self.directory / "scene.prm", settings)
@@ -61,7 +72,7 @@ class MeshFormatsTest(SceneTest):
         file.write_bytes(text if isinstance(text, bytes) else text.encode())
         run = self.call(self.scene({**FALL, "Mesh/File": name}), "--validate")
         self.assertEqual(run.status, 1, run.stdout)
-        for word in [name, *words]:
+        for word in [Path(name).stem, *words]:
             self.assertIn(word, run.stderr)
 
     def test_the_same_body_in_all_formats(self):
@@ -78,7 +89,7 @@ class MeshFormatsTest(SceneTest):
         write_usda(self.directory / "by_hand.usda")
         for file in [*files, self.directory / "by_hand.usda"]:
             with self.subTest(file.name):
-                self.assertEqual(self.nodes_after_fall(file), expected)
+                self.check_fall(file, expected)
 
     def test_other_ends_of_lines(self):
         expected = self.nodes_after_fall(MESHES / "box.msh")
@@ -87,14 +98,16 @@ class MeshFormatsTest(SceneTest):
                 file = self.directory / ("ends" + Path(name).suffix)
                 file.write_bytes((MESHES / name).read_bytes().replace(b"\n", end))
                 with self.subTest(name, end=end):
-                    self.assertEqual(self.nodes_after_fall(file), expected)
+                    self.check_fall(file, expected)
 
     def test_sets_of_abaqus(self):
-        text = (MESHES / "meshio.inp").read_text() + "*NSET, NSET=Held\n1, 2,\n3, 4\n*ELSET, ELSET=Stiff, GENERATE\n"
-        first = next(int(line.split(",")[0]) for line in text.split("TYPE=C3D4")[1].split("\n")[1:])
-        (self.directory / "sets.inp").write_text(text + f"{first}, {first + 3}, 1\n")
+        held = ",\n".join(str(i + 1) for i, x in enumerate(body()[0]) if float(x[0]) < 1e-9)
+        text = (MESHES / "meshio.inp").read_text() + f"*NSET, NSET=Held\n{held}\n"
+        (self.directory / "sets.inp").write_text(text)
         by_set = self.nodes_after_fall("sets.inp", **{"Handles/left/Select": "set Held"})
         self.assertEqual(by_set, self.nodes_after_fall(MESHES / "box.msh"))
+        first = next(int(line.split(",")[0]) for line in text.split("TYPE=C3D4")[1].split("\n")[1:])
+        (self.directory / "sets.inp").write_text(text + f"*ELSET, ELSET=Stiff, GENERATE\n{first}, {first + 3}, 1\n")
         run = self.call(self.scene({**FALL, "Mesh/File": "sets.inp", "Handles/left/Select": "region Stiff"}), "--validate")
         self.assertEqual(run.status, 0, run.stderr)
 
