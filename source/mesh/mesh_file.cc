@@ -42,9 +42,8 @@ namespace Exemplar
                      faces = beside(file, ".face");
       for (const fs::path &part : { nodes, cells })
         if (!fs::exists(part))
-          throw UserError(part.string()
-                          + ": there is no such file. A mesh of TetGen is NAME.node and "
-                            "NAME.ele, beside each other: copy both.");
+          throw UserError(file.string() + ": there is no such file as " + part.filename().string()
+                          + " beside it. A mesh of TetGen is NAME.node and NAME.ele: copy both.");
       MshFile msh = read_tetgen(bytes_of(nodes), bytes_of(cells),
                                 fs::exists(faces) ? bytes_of(faces) : std::string(), nodes);
       if (!fs::exists(faces))

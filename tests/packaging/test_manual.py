@@ -17,7 +17,7 @@ TOP = Path(__file__).resolve().parents[2]
 COMPLETION = TOP / "packaging/completion"
 PROGRAM = os.environ.get("EXEMPLAR", str(TOP / "build/release/exemplar"))
 PAGES = Path(sys.argv.pop(), "man")
-COMMANDS = ["study", "verify", "mesh", "pose", "export", "live"]
+COMMANDS = ["study", "verify", "mesh", "pose", "export", "convert", "live"]
 
 
 def output(*call, **settings):

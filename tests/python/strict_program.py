@@ -38,6 +38,8 @@ def change(problem: exemplar.Problem) -> None:
     problem.grab("nose", [3], lambda rest, t: t * rest)
     problem.set_motion("left", lambda rest, t: 0 * rest)
     problem.set_pose(1, problem.rest_positions)
+    problem.set_tension("biceps", 2e3)
+    problem.set_tension({"biceps": 2e3} if problem.tension.size > 0 else None)
     problem.add_term(term)
     problem.add_obstacle("floor", "plane 0 0 -9  0 0 1", motion="0; 0; 0", friction=0.5)
     errors: dict[str, float] = problem.check_term(term, positions=problem.state.positions, time=0.5)

@@ -19,6 +19,7 @@ SCENE = {
     "Handles/left/Select": "boundary 1",
     "Handles/left/Motion": "t; 0; 0",
     "Loads/Gravity": "0, 0, -9.81",
+    "Material/Mass matrix": "lumped",
     "Time/Step": "0.05",
     "Time/End": "0.2",
     "Output/Every": "2",

@@ -90,6 +90,20 @@ class TutorialStatics(Tutorial):
         mean = {number: [(x + y) / 2 for x, y in zip(pose[number], other[number])] for number in rest}
         self.assertLess(volume(half, mean), 0.8 * volume(half, rest))
 
+    @shows("step11_arm")
+    def test_a_muscle_lifts_the_arm(self):
+        output = self.scene("step11_arm", "arm")
+        rows = read_csv(output)
+        weights = [row["weight_1"] for row in rows]
+        self.assert_grows(weights[:5])
+        self.assertEqual(weights[4:7], [1, 1, 1])
+        for up, down in zip(rows, rows[::-1]):  # it comes back the same way
+            self.assertAlmostEqual(up["weight_1"], down["weight_1"], delta=2e-3)
+        still = self.scene("step11_arm", "still", "Material/region biceps/Fibre tension=0", "Time/Increments=2")
+        self.assertLess(max(row["weight_1"] for row in read_csv(still)), 0.05)
+        hand = lambda run: max(read_msh(run / "final.msh").nodes.values())[2]
+        self.assertLess(abs(hand(output) - hand(still)), 1e-3)
+
     @shows("step2_increments")
     def test_methods_and_increments(self):
         rows = self.study("step2_increments", "Mesh/Box cells=12, 3, 3", {"1 2 5 10 20 40": "1 20"})
