@@ -176,7 +176,7 @@ SCENES = {
 
 # name, beginning of the file, words of the message where it is Mesh/File, and where it is a surface
 FOREIGN = [
-    ("a.vtk", "# vtk DataFile Version 3.0\n", "the file ends at line 2 before ASCII or BINARY. It is cut off", "as .ply in ParaView"),
+    ("a.vtk", "# vtk DataFile Version 3.0\n", "the file ends at line 2 before ASCII or BINARY. It is cut off", "not a surface"),
     ("a.inp", "*HEADING\n", "has no tetrahedra", "not a surface"),
     ("a.vtu", "<?xml", "a .vtu begins with <VTKFile>", "not a surface"),
     ("a.ele", "1 4 0\n", "a.node", "not a surface"),
