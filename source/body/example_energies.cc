@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/body/example_poses.h>
+#include <exemplar/body/shell_strains.h>
 
 #include <algorithm>
 
@@ -112,9 +113,36 @@ namespace Exemplar
     return energy;
   }
 
+  TargetEnergy
+  ExamplePoses::energy_of_shell(const Material &material) const
+  {
+    const auto stress = [&material](const unsigned int cell, const double *a, double *T)
+    {
+      ShellStrain strain;
+      std::copy_n(a, n_shell_strains, strain.begin());
+      strain = shell_elasticity(material, cell).stress(strain);
+      std::copy_n(strain.begin(), n_shell_strains, T);
+    };
+    TargetEnergy energy{ strains, { stress }, {} };
+    if (material.importance_varies() || bending_importance != 1.)
+      energy.excess.dual = [this, &material, stress](const unsigned int cell, const double *a, double *T)
+      {
+        stress(cell, a, T);
+        const double eta = importance() * material.importance(cell);
+        for (unsigned int k = 0; k < n_shell_strains; ++k)
+          T[k] *= blended_share(eta * (k < n_shell_strains / 2 ? 1. : bending_importance));
+      };
+    return energy;
+  }
+
   void
   ExamplePoses::compute_energies(const Material &cell_material, const Patches &patches)
   {
+    if (fe_space.is_shell())
+    {
+      compute({ energy_of_shell(cell_material) });
+      return;
+    }
     compute_dilatations(patches);
     compute({ energy_of_cells(cell_material, patches), energy_of_patches(cell_material, patches) });
   }

@@ -70,6 +70,10 @@ namespace Exemplar
     keys.add("Include rest pose", include_rest_pose,
              "Whether the rest pose is example 0. Without it a single example is a "
              "permanent pre-strain. Means nothing with additive weights.");
+    keys.add("Bending importance", bending_importance,
+             "Of a shell: factor of Importance for curvatures or angles; 1: bends and stretches follow alike; their product "
+             "is at most 1.",
+             Bounds{ 0. });
     keys.add("Importance", importance,
              "eta, how strongly the examples pull [-]: 0 is plain elasticity (no pose file is "
              "opened), 1 lets the examples "

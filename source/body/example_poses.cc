@@ -6,6 +6,7 @@
 #include <exemplar/body/example_poses.h>
 #include <exemplar/body/pose_checks.h>
 #include <exemplar/body/regions.h>
+#include <exemplar/body/shell_strains.h>
 #include <exemplar/body/strain_parts.h>
 #include <exemplar/prm/assignments.h>
 #include <exemplar/prm/expression.h>
@@ -37,6 +38,8 @@ namespace Exemplar
     {
       if (!parameters.in_use())
         return {};
+      if (fe_space.is_shell() && parameters.weights_per_region && parameters.region_blend_length > 0.)
+        throw UserError("Examples/Region blend length is not for shells. Set it to 0.");
       const unsigned int n_points = points_per_cell(fe_space.element());
       if (!painted.empty())
         return painted_regions(painted, n_points, mesh.exchange());
@@ -47,6 +50,13 @@ namespace Exemplar
       return regions_of_materials(mesh, length, n_points);
     }
   } // namespace
+
+  ShellElasticity
+  shell_elasticity(const Material &material, const unsigned int cell)
+  {
+    const CellMaterial<double> &solid = material.elasticity(cell);
+    return ShellElasticity::of_solid(solid.lambda, solid.mu);
+  }
 
   double
   unit_energy(const FESpace &fe_space, const Material &material)
@@ -92,7 +102,7 @@ namespace Exemplar
               const FESpace                       &fe_space)
     {
       const std::vector<dealii::Point<3>> nodes
-          = fe_space.numbering().complete(places, "Examples, " + name);
+          = fe_space.complete(places, "Examples, " + name);
       ExamplePose pose{ name, Vector(fe_space.n_dofs()) };
       for (unsigned int node = 0; node < nodes.size(); ++node)
         for (unsigned int c = 0; c < 3; ++c)
@@ -160,6 +170,9 @@ namespace Exemplar
 
     /// Six numbers xx, yy, zz, yz, xz, xy; their products are those of the nine of the matrices, row by row.
     const TargetSpace strain_space{ n_symmetric, { 0, 5, 4, 5, 1, 3, 4, 3, 2 } };
+
+    /// Of shells: membrane strains xx, yy, xy and curvatures, see ShellStrains.
+    const TargetSpace shell_space{ n_shell_strains, shell_strain_order() };
   } // namespace
 
   ExamplePoses::ExamplePoses(const ExampleParameters        &parameters,
@@ -177,7 +190,8 @@ namespace Exemplar
                        fe_space.exchange(),
                        parameters.first_number()),
         fe_space(fe_space), laws(laws), rule{ parameters.acts_on, parameters.in_single_precision },
-        strains(strain_space, *this, volumes, shares),
+        bending_importance(parameters.bending_importance),
+        strains(fe_space.is_shell() ? shell_space : strain_space, *this, volumes, shares),
         dilatations(
             { 1, { 0 } }, WeightNumbers(n_weights()), std::vector<double>(patches.size(), 1.)),
         warnings(review(parameters, mesh, fe_space, poses))
@@ -204,7 +218,7 @@ namespace Exemplar
                       make_poses(parameters, mesh, fe_space, named_poses) }
   {
     set_parameters(parameters.importance, cell_material, patches);
-    if (parameters.weights == WeightRule::additive && size() > 0)
+    if (parameters.weights == WeightRule::additive && size() > 0 && !fe_space.is_shell())
       review_sums(mesh, cell_material);
   }
 
@@ -251,12 +265,28 @@ namespace Exemplar
   }
 
   void
+  ExamplePoses::add_strains_of_shell(const Material &material)
+  {
+    for (unsigned int i = first_strained(); i < size(); ++i)
+    {
+      const std::vector<ShellStrain> all = fe_space.shell_strains(pose(i));
+      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+        for (unsigned int k = 0; k < n_shell_strains; ++k)
+          strains.number(cell, i, k) = importance() * material.importance(cell)
+                                       * (k < n_shell_strains / 2 ? 1. : bending_importance)
+                                       * all[cell][k];
+    }
+  }
+
+  void
   ExamplePoses::compute_strains(const Material &material)
   {
     guard_bound = ExampleConstants().guard_bound;
     strains.clear();
+    if (fe_space.is_shell())
+      add_strains_of_shell(material);
     const bool own = material.has_elasticity_of_examples();
-    for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+    for (unsigned int point = 0; !fe_space.is_shell() && point < fe_space.n_points(); ++point)
     {
       const unsigned int cell = fe_space.cell_of(point);
       const CellLaw      law  = laws[cell];

@@ -44,12 +44,113 @@ namespace Exemplar
         fe(dealii::FE_SimplexP<3>(traits_of(element).degree), 3), mapping(dealii::FE_SimplexP<3>(1))
   {
     compute_gradients();
+    set_rest();
+  }
+
+  namespace
+  {
+    std::vector<Vector3<double>>
+    vectors_of(const std::vector<dealii::Point<3>> &places)
+    {
+      std::vector<Vector3<double>> vectors;
+      for (const dealii::Point<3> &x : places)
+        vectors.push_back({ { x[0], x[1], x[2] } });
+      return vectors;
+    }
+
+    std::vector<double>
+    thicknesses_of(const std::vector<ShellSection> &sections)
+    {
+      std::vector<double> thicknesses;
+      for (const ShellSection &section : sections)
+        thicknesses.push_back(section.thickness);
+      return thicknesses;
+    }
+  } // namespace
+
+  FESpace::FESpace(const Mesh &mesh, std::vector<ShellSection> sections_of_cells, const bool has_slopes)
+      : mesh(mesh), kind(Element::P1), nodes_of_element(mesh, kind, has_slopes),
+        fe(dealii::FE_SimplexP<3>(1), 3), mapping(dealii::FE_SimplexP<3>(1)),
+        sections(std::move(sections_of_cells)),
+        shell_mesh(std::make_unique<const ShellMesh>(
+            vectors_of(mesh.get_nodes()), mesh.get_triangles(), thicknesses_of(sections)))
+  {
+    for (const ShellTriangle &triangle : shell_mesh->triangles())
+      volumes.push_back(triangle.volume());
+    set_rest();
+  }
+
+  void
+  FESpace::set_rest()
+  {
     rest.reinit(n_dofs());
-    const std::vector<dealii::Point<3>> places
-        = nodes_of_element.complete(mesh.get_nodes(), "rest pose");
+    std::vector<dealii::Point<3>> places = mesh.get_nodes();
+    for (unsigned int edge = 0; nodes_of_element.has_slopes() && edge < shell_mesh->edges().size(); ++edge)
+    {
+      const Vector3<double> tip = shell_mesh->tip(edge);
+      places.emplace_back(tip[0], tip[1], tip[2]);
+    }
+    places = complete(std::move(places), "rest pose");
     for (unsigned int node = 0; node < n_nodes(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
         rest[3 * node + c] = places[node][c];
+  }
+
+  std::vector<dealii::Point<3>>
+  FESpace::complete(std::vector<dealii::Point<3>> places, const std::string &key) const
+  {
+    if (!nodes_of_element.has_slopes() || places.size() == n_nodes())
+      return nodes_of_element.complete(std::move(places), key);
+    Vector positions(n_dofs());
+    for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        positions[3 * node + c] = places[node][c];
+    const ShellStrains        strains(*shell_mesh);
+    const std::vector<double> slopes = strains.least_bending_slopes(
+        positions, [this](const unsigned int triangle) { return sections[triangle].elasticity; });
+    for (unsigned int edge = 0; edge < slopes.size(); ++edge)
+    {
+      positions[3 * shell_mesh->slope_node(edge)] = slopes[edge];
+      const Vector3<double> tip                   = strains.tip(edge, positions);
+      places.emplace_back(tip[0], tip[1], tip[2]);
+    }
+    return places;
+  }
+
+  Vector
+  FESpace::with_tips(Vector positions, const std::vector<bool> &is_held) const
+  {
+    const ShellStrains strains(*shell_mesh);
+    const Vector       before = positions;
+    for (unsigned int edge = 0; edge < is_held.size(); ++edge)
+      if (!is_held[edge])
+      {
+        const Vector3<double> tip = strains.tip(edge, before);
+        for (unsigned int c = 0; c < 3; ++c)
+          positions[3 * shell_mesh->slope_node(edge) + c] = tip[c];
+      }
+    return positions;
+  }
+
+  Vector
+  FESpace::with_slopes(Vector positions, const std::vector<bool> &is_held) const
+  {
+    ShellStrains strains(*shell_mesh);
+    strains.set_held(std::vector<bool>(is_held.size(), true));
+    const std::vector<double> slopes = strains.slopes(positions);
+    for (unsigned int edge = 0; edge < is_held.size(); ++edge)
+      if (!is_held[edge])
+        for (unsigned int c = 0; c < 3; ++c)
+          positions[3 * shell_mesh->slope_node(edge) + c] = c == 0 ? slopes[edge] : 0.;
+    return positions;
+  }
+
+  std::vector<ShellStrain>
+  FESpace::shell_strains(const Vector &positions_with_tips) const
+  {
+    ShellStrains strains(*shell_mesh);
+    strains.set_held(std::vector<bool>(shell_mesh->edges().size(), true));
+    return strains.strains(positions_with_tips);
   }
 
   void
@@ -85,7 +186,11 @@ namespace Exemplar
                      const unsigned int   cell,
                      std::vector<double> &values) const
   {
-    share_among(nodes(cell), 4, traits_of(kind).in_cell.by(rule), amount, values);
+    if (is_shell())
+      for (const unsigned int node : nodes(cell))
+        values[node] += amount / 3.;
+    else
+      share_among(nodes(cell), 4, traits_of(kind).in_cell.by(rule), amount, values);
   }
 
   void
@@ -149,10 +254,18 @@ namespace Exemplar
   FESpace::compute_mass_matrix(const std::vector<double>    &density_of_cell,
                                dealii::SparseMatrix<double> &mass) const
   {
+    mass = 0.;
+    if (is_shell())
+    {
+      for (unsigned int cell = 0; cell < n_cells(); ++cell)
+        for (const unsigned int a : nodes(cell))
+          for (const unsigned int b : nodes(cell))
+            mass.add(a, b, density_of_cell[cell] * volumes[cell] * (a == b ? 2. : 1.) / 12.);
+      return;
+    }
     const dealii::Quadrature<3> quadrature = quadratures_of(kind).mass;
     dealii::FEValues<3>         fe_values(mapping, fe, quadrature,
                                           dealii::update_values | dealii::update_JxW_values);
-    mass = 0.;
     for (const auto &cell : mesh.get_triangulation().active_cell_iterators())
     {
       fe_values.reinit(cell);

@@ -44,6 +44,17 @@ namespace Exemplar
       return chosen;
     }
 
+    /// The nodes of a handle, with those that follow from held vertices.
+    std::vector<unsigned int>
+    held_nodes(const HandleParameters   &parameters,
+               std::vector<unsigned int> vertices,
+               const FESpace            &fe_space)
+    {
+      if (fe_space.is_shell() && !parameters.holds_slopes())
+        return vertices;
+      return fe_space.numbering().with_middles(std::move(vertices));
+    }
+
     /// Check the displacements that a program's function has given for `n_points`.
     std::vector<dealii::Tensor<1, 3>>
     checked(std::vector<dealii::Tensor<1, 3>> displacements,
@@ -73,17 +84,17 @@ namespace Exemplar
     p.check();
     const std::string key = "Handles/" + p.name;
     Handle            handle{ p.name,
-                   fe_space.numbering().with_middles(
-                                  p.select.nodes(mesh, key + "/Select", named_nodes)),
+                   held_nodes(p, p.select.nodes(mesh, key + "/Select", named_nodes), fe_space),
                    parse_components(p.components, key),
                    Expression(key + "/Motion", p.motion, "xyzt", 3),
                    Expression(key + "/Progress", p.progress, "t", 1),
                    {},
                    {},
                    p.holding_time() };
+    handle.first_slope = fe_space.numbering().n_places();
     if (!p.follow_pose.empty())
     {
-      const auto pose = fe_space.numbering().complete(
+      const auto pose = fe_space.complete(
           mesh.find_pose(poses, p.follow_pose, key + "/Follow pose"), key + "/Follow pose");
       handle.path.emplace(whole_handle(handle.nodes, rest_positions(handle, fe_space), fe_space),
                           whole_handle(handle.nodes, choose(pose, handle.nodes), fe_space));

@@ -14,6 +14,8 @@ namespace Exemplar
                  const std::vector<unsigned int> &nodes,
                  const FESpace                   &fe_space)
   {
+    if (fe_space.is_shell())
+      return motion; // tips of normals are places of their own
     const auto position = [&](const unsigned int node)
     { return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin(); };
     const auto n_vertices = static_cast<std::size_t>(position(fe_space.numbering().n_vertices()));

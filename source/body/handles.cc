@@ -138,7 +138,7 @@ namespace Exemplar
     std::set<unsigned int> dofs;
     for (const Handle &handle : handles)
       for (const unsigned int node : handle.held_nodes())
-        for (const unsigned int c : handle.components)
+        for (const unsigned int c : handle.components_of(node))
           dofs.insert(3 * node + c);
     return { dofs.begin(), dofs.end() };
   }
@@ -154,7 +154,7 @@ namespace Exemplar
         dealii::Tensor<1, 3> moved = handle.displacement(point, rest, time);
         if (!handle.offsets.empty())
           moved += handle.offsets[point];
-        for (const unsigned int c : handle.components)
+        for (const unsigned int c : handle.components_of(node))
           positions[3 * node + c] = rest[c] + moved[c];
       }
   }
@@ -173,7 +173,7 @@ namespace Exemplar
       for (unsigned int point = 0; point < handles[h].held_nodes().size(); ++point)
       {
         const unsigned int node = handles[h].nodes[point];
-        for (const unsigned int c : handles[h].components)
+        for (const unsigned int c : handles[h].components_of(node))
           positions[3 * node + c] = fe_space.rest_positions()[3 * node + c] + all[h][point][c];
       }
     // motions by functions could not be checked at all times before
@@ -204,7 +204,7 @@ namespace Exemplar
     dealii::Tensor<1, 3> sum;
     const Exchange      &exchange = fe_space.exchange();
     for (const unsigned int node : handles[handle].held_nodes())
-      for (const unsigned int c : handles[handle].components)
+      for (const unsigned int c : handles[handle].components_of(node))
         if (exchange.owns(node))
           sum[c] += field[3 * node + c];
     exchange.sum(sum.begin_raw(), 3);

@@ -80,6 +80,10 @@ namespace Exemplar
                "nu [-], greater than -1 and less than 0.5.", Bounds{ -1., 0.5 });
       keys.add("Density", constants.density,
                "rho [kg/m^3], greater than 0. Used by dynamics and gravity.", positive);
+      keys.add("Thickness", constants.thickness,
+               "t [m] of a shell, at least 1e-6 and at most a quarter of the mean length of its edges; 0 where there is "
+               "none.",
+               Bounds{ 0. });
       keys.add("Importance factor", constants.importance,
                "Factor of Examples/Importance [-]: 0 is plain elasticity in these cells.",
                Bounds{ 0., 1. });

@@ -61,6 +61,8 @@ namespace Exemplar
     const EnumTable<Background>     backgrounds
         = { { Background::corotational, "corotational" },
             { Background::neo_hookean, traits_of(CellLaw::neo_hookean).name } };
+    const EnumTable<ShellKind> shells
+        = { { ShellKind::plate, "plate" }, { ShellKind::hinges, "hinges" } };
   } // namespace
 
   void
@@ -98,6 +100,10 @@ namespace Exemplar
         "same resistance to small strains, for large stretches (doc/model.md). It is for the "
         "corotational strain with consistent forces and, where there are examples, "
         "Examples/Energy = blended; examples act on the corotational strain.");
+    keys.add("Shell", shell, shells,
+             "What a shell (Mesh/Kind) resists and its examples ask for: plate: three membrane strains and three "
+             "curvatures of each triangle, with the slope of the normal at each edge as an unknown; it converges. hinges: "
+             "the lengths of edges and the angles between triangles, which depend on the mesh (doc/shells.md).");
     keys.leave_subsection();
   }
 

@@ -24,11 +24,13 @@ namespace Exemplar
     }
   }
 
-  NodeNumbering::NodeNumbering(const Mesh &mesh, const Element element)
-      : mesh(mesh), n_per_cell(nodes_per_cell(element)),
-        nodes_of_cells(mesh.get_cells().data()->data())
+  NodeNumbering::NodeNumbering(const Mesh &mesh, const Element element, const bool has_slopes)
+      : mesh(mesh), n_per_cell(mesh.is_shell() ? 3 : nodes_per_cell(element)),
+        nodes_of_cells(mesh.n_cells() > 0 ? mesh.corners(0).data() : nullptr)
   {
-    if (!traits_of(element).has_edge_nodes())
+    if (has_slopes)
+      edges = edges_of(mesh.get_triangles());
+    if (mesh.is_shell() || !traits_of(element).has_edge_nodes())
       return;
     edges = edges_of(mesh.get_cells());
     with_edges.reserve(n_per_cell * mesh.n_cells());
@@ -51,7 +53,7 @@ namespace Exemplar
   NodeNumbering::of_face(const BoundaryFace &face) const
   {
     std::vector<unsigned int> nodes(face.nodes.begin(), face.nodes.end());
-    for (unsigned int v = 0; v < 3 && !edges.empty(); ++v)
+    for (unsigned int v = 0; v < 3 && !with_edges.empty(); ++v)
       nodes.push_back(middle_of(face.nodes[v], face.nodes[(v + 1) % 3]));
     return nodes;
   }
@@ -63,7 +65,19 @@ namespace Exemplar
     for (unsigned int cell = 0; mesh.n_pieces() > 1 && cell < mesh.n_cells(); ++cell)
       for (const unsigned int node : of_cell(cell))
         of_nodes[node] = mesh.piece_of(cell);
+    for (unsigned int edge = 0; has_slopes() && edge < edges.size(); ++edge)
+      of_nodes[mesh.n_nodes() + edge] = of_nodes[edges[edge][0]];
     return of_nodes;
+  }
+
+  std::vector<unsigned int>
+  NodeNumbering::fixed_dofs() const
+  {
+    std::vector<unsigned int> dofs;
+    for (unsigned int node = n_places(); node < n_nodes(); ++node)
+      for (const unsigned int c : { 1, 2 })
+        dofs.push_back(3 * node + c);
+    return dofs;
   }
 
   std::vector<unsigned int>
@@ -83,7 +97,7 @@ namespace Exemplar
   std::vector<dealii::Point<3>>
   NodeNumbering::complete(std::vector<dealii::Point<3>> places, const std::string &key) const
   {
-    if (places.size() > n_nodes())
+    if (places.size() > n_nodes() && !mesh.is_shell())
       check_straight(places, edges_of(mesh.get_cells()), mesh.diameter(), key);
     if (places.size() == mesh.n_nodes())
       for (const auto &[a, b] : edges)

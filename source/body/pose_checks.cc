@@ -120,7 +120,8 @@ namespace Exemplar
         places += formula[0] == '-' ? " - " + trim(formula.substr(1)) : " + " + formula;
       coordinates.erase(0, 1);
     }
-    if (measure(mesh, fe_space, positions).max_abs_volume >= flat_tolerance || n_lacking < 2)
+    if (fe_space.is_shell() || n_lacking < 2
+        || measure(mesh, fe_space, positions).max_abs_volume >= flat_tolerance)
       return "";
     return " = '" + functions
            + "' makes the body flat. It gives positions, not displacements: did you mean '" + places
@@ -133,6 +134,8 @@ namespace Exemplar
                 const dealii::Vector<double> &positions,
                 const bool                    may_be_rest)
   {
+    if (fe_space.is_shell())
+      return ""; // may be flat, folded or turned inside out
     const PoseMeasures pose  = measure(mesh, fe_space, positions);
     const std::string  ratio = short_text(pose.size_ratio);
     if (may_be_displacements(pose, mesh, fe_space, positions))

@@ -21,10 +21,22 @@ namespace Exemplar
       return nodes;
     }
 
-    void
-    move_rigidly(const RigidMotion &motion, dealii::Vector<double> &positions)
+    /// The first nodes of the whole body, which are places.
+    std::vector<dealii::Point<3>>
+    places_of(const Exchange               &exchange,
+              const dealii::Vector<double> &positions,
+              const unsigned int            n_places)
     {
-      const std::vector<dealii::Point<3>> nodes = nodes_of(positions);
+      std::vector<dealii::Point<3>> nodes = nodes_of(whole(exchange, positions, true));
+      nodes.resize(std::min<std::size_t>(nodes.size(), n_places));
+      return nodes;
+    }
+
+    void
+    move_rigidly(const RigidMotion &motion, dealii::Vector<double> &positions, const unsigned int n_places)
+    {
+      std::vector<dealii::Point<3>> nodes = nodes_of(positions);
+      nodes.resize(std::min<std::size_t>(nodes.size(), n_places));
       for (unsigned int node = 0; node < nodes.size(); ++node)
       {
         const dealii::Point<3> moved = motion(nodes[node]);
@@ -60,10 +72,11 @@ namespace Exemplar
       return maximum;
     }
 
+    template <std::size_t n>
     unsigned int
     cell_nearest_to(const dealii::Point<3>                         &center,
                     const std::vector<dealii::Point<3>>            &nodes,
-                    const std::vector<std::array<unsigned int, 4>> &cells)
+                    const std::vector<std::array<unsigned int, n>> &cells)
     {
       unsigned int nearest          = 0;
       double       nearest_distance = std::numeric_limits<double>::max();
@@ -71,7 +84,7 @@ namespace Exemplar
       {
         dealii::Point<3> middle;
         for (const unsigned int node : cells[cell])
-          middle += nodes[node] / 4.;
+          middle += nodes[node] / double(n);
         if (const double distance = middle.distance(center); distance < nearest_distance)
         {
           nearest          = cell;
@@ -135,11 +148,12 @@ namespace Exemplar
     return n_free;
   }
 
-  StaticallyDeterminateSupport
-  support_near_centroid(const std::vector<dealii::Point<3>>            &x,
-                        const std::vector<std::array<unsigned int, 4>> &cells)
+  namespace
   {
-    const auto &cell = cells[cell_nearest_to(centroid(x), x, cells)];
+    /// The support in a cell with these nodes, of a triangle the first one twice.
+    StaticallyDeterminateSupport
+    support_in(const std::array<unsigned int, 4> &cell, const std::vector<dealii::Point<3>> &x)
+    {
     const auto  a = cell[0], b = cell[1], c = cell[2];
 
     // b may move along the dominant direction of ab only, c within the plane abc
@@ -151,13 +165,30 @@ namespace Exemplar
         held.push_back(3 * b + d);
     std::sort(held.begin(), held.end());
     return { cell, { { x[a], x[b], x[c], x[cell[3]] } }, { { a, b, c } }, held };
+    }
+  } // namespace
+
+  StaticallyDeterminateSupport
+  support_near_centroid(const std::vector<dealii::Point<3>>            &x,
+                        const std::vector<std::array<unsigned int, 4>> &cells)
+  {
+    return support_in(cells[cell_nearest_to(centroid(x), x, cells)], x);
+  }
+
+  StaticallyDeterminateSupport
+  support_near_centroid(const std::vector<dealii::Point<3>>            &x,
+                        const std::vector<std::array<unsigned int, 3>> &triangles)
+  {
+    const auto &[a, b, c] = triangles[cell_nearest_to(centroid(x), x, triangles)];
+    return support_in({ { a, b, c, a } }, x);
   }
 
   bool
   turn_to_support(const StaticallyDeterminateSupport &support,
                   const double                        angle,
                   dealii::Vector<double>             &positions,
-                  const Exchange                     &exchange)
+                  const Exchange                     &exchange,
+                  const unsigned int                  n_places)
   {
     const Vector                  all = whole(exchange, positions, true);
     std::vector<dealii::Point<3>> rest(support.rest.begin(), support.rest.end()), current;
@@ -166,17 +197,18 @@ namespace Exemplar
     const RigidMotion motion = best_rigid_motion(current, rest);
     if (axis_and_angle(motion.rotation).angle < angle)
       return false;
-    move_rigidly(motion, positions);
+    move_rigidly(motion, positions, n_places);
     return true;
   }
 
   void
   remove_rigid_motion(const dealii::Vector<double> &positions,
                       dealii::Vector<double>       &displacement,
-                      const Exchange               &exchange)
+                      const Exchange               &exchange,
+                      const unsigned int            n_places)
   {
-    const std::vector<dealii::Point<3>> x = nodes_of(whole(exchange, positions, true)),
-                                        u = nodes_of(whole(exchange, displacement, true));
+    const std::vector<dealii::Point<3>> x = places_of(exchange, positions, n_places),
+                                        u = places_of(exchange, displacement, n_places);
     const dealii::Point<3> center = centroid(x), shift = centroid(u);
     dealii::Tensor<2, 3>   inertia;
     dealii::Tensor<1, 3>   moment;
@@ -191,7 +223,7 @@ namespace Exemplar
     const dealii::Tensor<1, 3> rotation
         = has_volume ? invert(inertia) * moment : dealii::Tensor<1, 3>();
     const std::vector<dealii::Point<3>> own = nodes_of(positions);
-    for (unsigned int node = 0; node < own.size(); ++node)
+    for (unsigned int node = 0; node < std::min<std::size_t>(own.size(), n_places); ++node)
     {
       const dealii::Tensor<1, 3> rigid
           = shift + dealii::cross_product_3d(rotation, own[node] - center);
@@ -203,11 +235,12 @@ namespace Exemplar
   void
   align(const dealii::Vector<double> &reference,
         dealii::Vector<double>       &positions,
-        const Exchange               &exchange)
+        const Exchange               &exchange,
+        const unsigned int            n_places)
   {
-    move_rigidly(best_rigid_motion(nodes_of(whole(exchange, positions, true)),
-                                   nodes_of(whole(exchange, reference, true))),
-                 positions);
+    move_rigidly(best_rigid_motion(places_of(exchange, positions, n_places),
+                                   places_of(exchange, reference, n_places)),
+                 positions, n_places);
   }
 
   void
@@ -231,6 +264,6 @@ namespace Exemplar
     if (from.size() < 3 || are_collinear(from) || are_collinear(to))
       align(reference, positions, exchange);
     else
-      move_rigidly(best_rigid_motion(from, to), positions);
+      move_rigidly(best_rigid_motion(from, to), positions, all_places);
   }
 } // namespace Exemplar

@@ -259,7 +259,7 @@ namespace Exemplar::Live
     if (wish.colour == "energy" || wish.colour == "det F")
     {
       const CellResults cells
-          = problem.cells.cell_results(problem.state.positions, problem.state.weights);
+          = problem.elastic->cell_results(problem.state.positions, problem.state.weights);
       return at_vertices(wish.colour == "energy" ? cells.strain_energy_density : cells.det_F,
                          problem.body.mesh, surface);
     }

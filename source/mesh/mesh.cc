@@ -201,7 +201,7 @@ namespace Exemplar
     MeshPart
     whole_part(MeshArrays arrays)
     {
-      const auto n_cells = static_cast<unsigned int>(arrays.cells.size());
+      const auto n_cells = static_cast<unsigned int>(arrays.material_ids.size());
       MeshPart   part;
       part.whole = { static_cast<unsigned int>(arrays.contents.nodes.size()),
                      n_cells,
@@ -245,21 +245,15 @@ namespace Exemplar
   } // namespace
 
   Mesh::Mesh(const MeshParameters &parameters)
-      : Mesh(load_mesh(parameters), parameters.name(), parameters.scale)
+      : Mesh(load_mesh(parameters), parameters.name(), parameters.scale, parameters.kind)
   {
   }
 
   MeshArrays
   check_mesh(MshFile contents, const std::string &name, const double scale)
   {
-    if (!(scale > 0.))
-      throw UserError(fmt::format(
-          "Mesh/Scale: must be positive, found {:f}. Leave it at 1 if the mesh is in metres.",
-          scale));
     MeshArrays mesh;
-    for (auto &node : contents.nodes)
-      node *= scale;
-    check_places(contents.nodes, contents, name);
+    scale_nodes(contents, name, scale);
     if (!contents.note.empty())
       mesh.warnings.push_back(contents.note);
 
@@ -303,8 +297,14 @@ namespace Exemplar
     return lower.distance(upper);
   }
 
-  Mesh::Mesh(MshFile contents, const std::string &file_name, const double scale)
-      : Mesh(whole_part(check_mesh(std::move(contents), file_name, scale)), file_name, scale)
+  Mesh::Mesh(MshFile            contents,
+             const std::string &file_name,
+             const double       scale,
+             const MeshKind     kind)
+      : Mesh(whole_part((kind == MeshKind::shell ? check_shell : check_mesh)(
+                 std::move(contents), file_name, scale)),
+             file_name,
+             scale)
   {
   }
 

@@ -180,6 +180,18 @@ namespace Exemplar
   }
 
   void
+  scale_nodes(MshFile &contents, const std::string &name, const double scale)
+  {
+    if (!(scale > 0.))
+      throw UserError(fmt::format(
+          "Mesh/Scale: must be positive, found {:f}. Leave it at 1 if the mesh is in metres.",
+          scale));
+    for (auto &node : contents.nodes)
+      node *= scale;
+    check_places(contents.nodes, contents, name);
+  }
+
+  void
   check_orphan_nodes(const MshFile &contents, const std::string &name, const Tetrahedra &tetrahedra)
   {
     std::vector<bool> used(contents.nodes.size(), false);

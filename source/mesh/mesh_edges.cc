@@ -13,6 +13,13 @@ namespace Exemplar
     {
       return { { std::min(a, b), std::max(a, b) } };
     }
+
+    void
+    sort_and_unite(std::vector<std::array<unsigned int, 2>> &edges)
+    {
+      std::sort(edges.begin(), edges.end());
+      edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    }
   } // namespace
 
   std::vector<std::array<unsigned int, 2>>
@@ -23,8 +30,19 @@ namespace Exemplar
     for (const auto &cell : cells)
       for (const auto &[a, b] : cell_edges)
         edges.push_back(ascending(cell[a], cell[b]));
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    sort_and_unite(edges);
+    return edges;
+  }
+
+  std::vector<std::array<unsigned int, 2>>
+  edges_of(const std::vector<std::array<unsigned int, 3>> &triangles)
+  {
+    std::vector<std::array<unsigned int, 2>> edges;
+    edges.reserve(3 * triangles.size());
+    for (const auto &[a, b, c] : triangles)
+      for (const auto &edge : { ascending(a, b), ascending(b, c), ascending(c, a) })
+        edges.push_back(edge);
+    sort_and_unite(edges);
     return edges;
   }
 

@@ -15,6 +15,9 @@ namespace Exemplar
     const EnumTable<MeshGenerator> generator_names{ { MeshGenerator::none, "none" },
                                                     { MeshGenerator::box, "box" } };
 
+    const EnumTable<MeshKind> kind_names{ { MeshKind::solid, "solid" },
+                                          { MeshKind::shell, "shell" } };
+
     bool
     may_name_frames(const char c)
     {
@@ -27,6 +30,9 @@ namespace Exemplar
   MeshParameters::declare(KeyTable &keys)
   {
     keys.enter_subsection("Mesh");
+    keys.add("Kind", kind, kind_names,
+             "solid: tetrahedra, or what fills a surface with them; shell: the triangles of File, a "
+             "surface (.obj, .ply, .stl) or a .msh, which have Material/Thickness.");
     keys.add_file(
         "File", file,
         "The tetrahedral rest mesh: .msh (gmsh 2.2 or 4.1, ASCII or binary), .mesh (Medit), .vtk, "
@@ -88,7 +94,7 @@ namespace Exemplar
   std::string
   MeshParameters::surface_file() const
   {
-    return surface.empty() && is_surface() ? file : surface;
+    return surface.empty() && is_surface_file(file) ? file : surface;
   }
 
   void
@@ -114,7 +120,7 @@ namespace Exemplar
   bool
   MeshParameters::is_surface() const
   {
-    return is_surface_file(file);
+    return kind == MeshKind::solid && is_surface_file(file);
   }
 
   bool

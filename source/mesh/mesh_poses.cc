@@ -104,7 +104,8 @@ namespace Exemplar
       throw UserError(key + ": there is no pose '" + pose
                       + "' among the inputs. Hand it in by this name, or read it from a file.");
     const std::size_t n = found->second.size();
-    if (n != n_nodes() && n != n_nodes() + edges_of(arrays.cells).size())
+    const std::size_t n_edges = is_shell() ? edges_of(arrays.triangles).size() : edges_of(arrays.cells).size();
+    if (n != n_nodes() && n != n_nodes() + n_edges)
       throw UserError(
           fmt::format("{}: the pose '{}' has {} nodes, the mesh {}. Hand in a place for each node.",
                       key, pose, n, n_nodes()));
@@ -120,6 +121,15 @@ namespace Exemplar
     std::vector<dealii::Point<3>> places   = positions;
     for (dealii::Point<3> &place : places)
       place /= scale;
+    if (is_shell())
+    {
+      MshFile    pose  = contents;
+      const auto first = places.begin() + static_cast<std::ptrdiff_t>(contents.nodes.size());
+      pose.normal_tips = { first, places.end() };
+      pose.nodes       = { places.begin(), first };
+      write_msh(pose, file_path, comment);
+      return;
+    }
     if (places.size() > contents.nodes.size())
     {
       const auto edges

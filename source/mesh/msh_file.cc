@@ -88,8 +88,9 @@ namespace Exemplar
       in.fail("the section is not supported. In gmsh save without partitions "
               "(Mesh.PartitionSplitMeshFiles) and parameters (Mesh.SaveParametric = 0).");
     const bool known = name == "PhysicalNames" || name == "Entities" || name == "Nodes"
-                       || name == "Elements" || name == "SurfaceTies";
-    if (!known || (name == "Entities" && !version_4) || (name == "SurfaceTies" && in.is_binary()))
+                       || name == "Elements" || name == "SurfaceTies" || name == "NormalTips";
+    const bool is_own = name == "SurfaceTies" || name == "NormalTips";
+    if (!known || (name == "Entities" && !version_4) || (is_own && in.is_binary()))
       return in.skip_section();
 
     if (!seen.insert(name).second)
@@ -102,6 +103,8 @@ namespace Exemplar
       read_entities();
     else if (name == "SurfaceTies")
       read_surface_ties();
+    else if (name == "NormalTips")
+      read_normal_tips();
     else if (name == "Nodes")
       version_4 ? read_nodes_4() : read_nodes_2();
     else
@@ -162,6 +165,20 @@ namespace Exemplar
       if (!(std::abs(sum - 1.) < 1e-3))
         in.fail(fmt::format("the shares of tie {} do not sum to 1. Make the mesh anew.", i + 1));
       msh.surface_ties.push_back(tie);
+    }
+  }
+
+  void
+  MshReader::read_normal_tips()
+  {
+    const std::size_t n_tips = in.text_size();
+    in.begin_count(n_tips, "tips");
+    for (std::size_t i = 0; i < n_tips; ++i, in.count())
+    {
+      dealii::Point<3> tip;
+      for (unsigned int c = 0; c < 3; ++c)
+        tip[c] = in.read_double();
+      msh.normal_tips.push_back(tip);
     }
   }
 

@@ -143,6 +143,23 @@ namespace Exemplar
     }
 
     void
+    write_normal_tips(const MshFile &msh, std::ostream &out)
+    {
+      if (msh.normal_tips.empty())
+        return;
+      out << fmt::format("$NormalTips\n{}\n", msh.normal_tips.size());
+      LineWriter line(out);
+      for (const dealii::Point<3> &tip : msh.normal_tips)
+      {
+        for (unsigned int c = 0; c < 3; ++c)
+          line.real(tip[c]);
+        line.end_line();
+      }
+      line.flush();
+      out << "$EndNormalTips\n";
+    }
+
+    void
     write_to(std::ostream &out, const MshFile &msh)
     {
       out << msh_beginning;
@@ -150,6 +167,7 @@ namespace Exemplar
       write_nodes(msh, out);
       write_elements(msh, out);
       write_surface_ties(msh, out);
+      write_normal_tips(msh, out);
     }
   } // namespace
 

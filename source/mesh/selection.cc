@@ -83,7 +83,7 @@ namespace Exemplar
       std::set<unsigned int> nodes;
       for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
         if (ids[cell] == id)
-          nodes.insert(mesh.get_cells()[cell].begin(), mesh.get_cells()[cell].end());
+          nodes.insert(mesh.corners(cell).begin(), mesh.corners(cell).end());
       if (nodes.empty())
         throw UserError(fmt::format("{}: region {} has no cells in {} (present: {}). Give a "
                                     "Physical Volume that tag, or change {}.",

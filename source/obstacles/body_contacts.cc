@@ -14,7 +14,7 @@ namespace Exemplar
     {
       std::vector<std::vector<dealii::Point<3>>> nodes(mesh.n_pieces());
       for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
-        for (const unsigned int node : mesh.get_cells()[cell])
+        for (const unsigned int node : mesh.corners(cell))
           nodes[mesh.piece_of(cell)].push_back(mesh.get_nodes()[node]);
       double largest = 0.;
       for (const auto &of_piece : nodes)

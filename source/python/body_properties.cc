@@ -86,6 +86,9 @@ namespace Exemplar::Python
     volumes(const HeldProblem &held)
     {
       const Mesh &mesh = held.get().body.mesh;
+      if (mesh.is_shell())
+        return by_cell(held, [&held](const unsigned int cell)
+                       { return held.get().body.fe_space.cell_volume(cell); });
       return by_cell(held,
                      [&mesh](const unsigned int cell)
                      {

@@ -103,7 +103,7 @@ namespace Exemplar::Python
       given.inputs.poses[given.scene.examples.poses[i]] = points_of(list[i], what);
     }
     if (!mesh.is_none())
-      given.inputs.mesh = mesh_of(mesh);
+      given.inputs.mesh = mesh_of(mesh, given.scene.mesh.kind);
     return given;
   }
 

@@ -91,7 +91,7 @@ namespace Exemplar::Python
   py::array
   StateArrays::cells() const
   {
-    const auto &cells = problem->body.mesh.get_cells();
-    return read_only_rows(cells[0].data(), cells.size(), 4, keeper(problem));
+    const Mesh &mesh = problem->body.mesh;
+    return read_only_rows(mesh.corners(0).data(), mesh.n_cells(), mesh.corners(0).size(), keeper(problem));
   }
 } // namespace Exemplar::Python

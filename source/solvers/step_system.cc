@@ -9,10 +9,10 @@ namespace Exemplar
   StepSystem::StepSystem(IncrementalPotential &potential,
                          MakeSystem            new_make_system,
                          StepClock            &clock,
-                         const bool            turns_freely)
+                         const unsigned int    n_turning)
       : potential(potential), make_system(std::move(new_make_system)), system(make_system()),
         pattern_version(potential.get_tangent().get_pattern().version),
-        dofs_version(potential.get_free_dofs().version()), clock(clock), turns_freely(turns_freely)
+        dofs_version(potential.get_free_dofs().version()), clock(clock), n_turning(n_turning)
   {
   }
 
@@ -174,8 +174,8 @@ namespace Exemplar
     const Exchange &exchange = potential.get_free_dofs().exchange();
     exchange.share(displacement);
     // the far ends of a body held at one cell would turn about it, along straight lines
-    if (turns_freely)
-      remove_rigid_motion(at.positions, displacement, exchange);
+    if (n_turning > 0)
+      remove_rigid_motion(at.positions, displacement, exchange, n_turning);
     return displacement;
   }
 

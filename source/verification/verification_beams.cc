@@ -141,7 +141,7 @@ namespace Exemplar::Verification
       for (const unsigned int dof : free)
         if (dof % 3 == 2)
           mode[dof] = std::pow(p.body.fe_space.rest_positions()[dof - 2], 2);
-      p.cells.get_field().update_rotations(p.body.fe_space.rest_positions());
+      p.cells().get_field().update_rotations(p.body.fe_space.rest_positions());
       p.system.factorize(p.body.fe_space.rest_positions(), {}, 0.);
       double omega_squared = 0.;
       for (unsigned int iteration = 0; iteration < 8; ++iteration) // f_2/f_1 = 6.3: error 36^-8

@@ -38,11 +38,11 @@ namespace Exemplar::Verification
             w(problem.examples.poses.size() > 0 ? weights : std::vector<double>()),
             rotations(rotations)
       {
-        problem.cells.get_field().update_rotations(x);
+        problem.cells().get_field().update_rotations(x);
         at = evaluate(x, w);
-        problem.cells.get_field().update_rotations(x);
+        problem.cells().get_field().update_rotations(x);
         matrix.resize(problem.potential.get_tangent().get_pattern().n_values());
-        problem.cells.assemble_tangent(rotations == Rotations::followed ? Tangent::exact
+        problem.cells().assemble_tangent(rotations == Rotations::followed ? Tangent::exact
                                                                         : Tangent::convex,
                                        x, w, matrix, columns);
       }
@@ -165,9 +165,9 @@ namespace Exemplar::Verification
       evaluate(const dealii::Vector<double> &positions, const std::vector<double> &at_weights) const
       {
         if (rotations == Rotations::followed)
-          problem.cells.get_field().update_rotations(positions);
+          problem.cells().get_field().update_rotations(positions);
         ElasticEvaluation evaluation;
-        problem.cells.evaluate(positions, at_weights, evaluation);
+        problem.cells().evaluate(positions, at_weights, evaluation);
         return evaluation;
       }
 

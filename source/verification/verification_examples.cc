@@ -60,7 +60,7 @@ namespace Exemplar::Verification
         const ElasticEvaluation at = evaluate(p, start.positions, unit);
         const double            scale
             = max_or_nan(max_entry(strained.force_scale.begin(), strained.force_scale.end()),
-                         p.cells.rounding_force(0.) * 1e14);
+                         p.cells().rounding_force(0.) * 1e14);
         residual = max_or_nan(residual, max_entry(at.gradient.begin(), at.gradient.end()) / scale);
         p.resume_from(start);
         if (!is_success(p.advance().status))

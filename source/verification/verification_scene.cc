@@ -204,8 +204,8 @@ namespace Exemplar::Verification
            const std::vector<double>    &weights)
   {
     ElasticEvaluation evaluation;
-    problem.cells.get_field().update_rotations(positions);
-    problem.cells.evaluate(positions, weights, evaluation);
+    problem.cells().get_field().update_rotations(positions);
+    problem.cells().evaluate(positions, weights, evaluation);
     return evaluation;
   }
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The formulas that doc/model.md, dynamics.md, rotations.md and solver.md print, in numpy, against the module.
 
-Held are (1) to (22), (24) to (28), (30) to (40) and (44), with what the pages print between them (damping, guards, fibres, patches, the convex tangent
+Held are (1) to (22), (24) to (28), (30) to (40), (44) and (45), with what the pages print between them (damping, guards, fibres, patches, the convex tangent
 of stretched cells, importance by region, quadratic elements, lumped masses, moved handles, handles that follow a pose, closed forms).
 
 Not held are (23), which no caller sees, but see RotatedMetric in tests/unit/solvers; which cells make a patch (patches_test.cc); convex tangents of
@@ -858,7 +858,7 @@ def plastic_density(e, last, accumulated, h, p):
 
 class OfViscoelasticBodies(Formulas):
     def test_active_fibres(self):
-        """(44): energies and forces above and below the least stretch, along a curve and without one."""
+        """(45): energies and forces above and below the least stretch, along a curve and without one."""
         a = np.array([1.0, 2, -1]) / np.sqrt(6)
         gradients = np.linalg.inv(np.hstack([np.ones((4, 1)), NODES]))[1:].T
         volume = np.linalg.det(NODES[1:] - NODES[0]) / 6

@@ -69,6 +69,7 @@ namespace Exemplar
     std::string              pose_functions;
     bool                     include_rest_pose = true;
     double                   importance        = 0.8; ///< eta
+    double                   bending_importance = 1.; ///< of a shell: factor of eta for curvatures
     std::string              weight_penalty    = "auto";
     ExampleEnergy            energy            = ExampleEnergy::mixed;
     ActsOn                   acts_on           = ActsOn::all;

@@ -15,6 +15,10 @@
 
 namespace Exemplar
 {
+  /// The plane elasticity of a shell's triangle.
+  ShellElasticity
+  shell_elasticity(const Material &material, unsigned int cell);
+
   /// sum E V over the cells [J]: the energy scale of a strain of 1.
   double
   unit_energy(const FESpace &fe_space, const Material &material);
@@ -160,6 +164,12 @@ namespace Exemplar
     void
     compute_strains(const Material &material);
 
+    void
+    add_strains_of_shell(const Material &material);
+
+    TargetEnergy
+    energy_of_shell(const Material &material) const;
+
     /// Warns of cells in which keys together ask for no thickness. Collective.
     void
     review_sums(const Mesh &mesh, const Material &material);
@@ -182,6 +192,7 @@ namespace Exemplar
     double                   guard_bound = ExampleConstants().guard_bound;
     std::vector<Vector>      positions; ///< of the nodes in each example
     const StrainRule         rule;
+    const double             bending_importance;
     TargetBlock              strains;
     TargetBlock              dilatations; ///< of patches, with a list for each weight
     std::vector<std::string> warnings;

@@ -3,6 +3,7 @@
 #define exemplar_fe_space_h
 
 #include <exemplar/body/node_numbering.h>
+#include <exemplar/body/shell_strains.h>
 #include <exemplar/kernels/tetrahedron.h>
 
 #include <deal.II/base/tensor.h>
@@ -12,10 +13,18 @@
 #include <deal.II/lac/sparse_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <memory>
 #include <vector>
 
 namespace Exemplar
 {
+  /// What a triangle of a shell is made of.
+  struct ShellSection
+  {
+    double          thickness; ///< [m]
+    ShellElasticity elasticity;
+  };
+
   /// The finite element space FE_SimplexP(1)^3 or FE_SimplexP(2)^3 on a mesh of straight edges.
   /// Degree of freedom 3 i + c is component c of node i of its NodeNumbering. Linear elements have
   /// one quadrature point a cell, quadratic ones four; those of cell c are the points c
@@ -27,6 +36,24 @@ namespace Exemplar
   {
   public:
     explicit FESpace(const Mesh &mesh, Element element = Element::P1);
+
+    /// The space of a shell: linear triangles of these sections, with a quadrature point each, and slopes behind the
+    /// vertices or not, see NodeNumbering. It has no gradients of shape functions: what a shell resists, ShellStrains knows.
+    FESpace(const Mesh &mesh, std::vector<ShellSection> sections, bool has_slopes);
+
+    /// The triangles and edges of a shell; only for one.
+    const ShellMesh &
+    shell() const
+    {
+      return *shell_mesh;
+    }
+
+    /// Whether the cells are the triangles of a shell.
+    bool
+    is_shell() const
+    {
+      return mesh.is_shell();
+    }
 
     Element
     element() const
@@ -52,6 +79,23 @@ namespace Exemplar
     {
       return nodes_of_element;
     }
+
+    /// NodeNumbering::complete(); behind the vertices of a shell that has slopes come the tips of its normals, with the slopes of
+    /// least bending energy where `places` has none.
+    std::vector<dealii::Point<3>>
+    complete(std::vector<dealii::Point<3>> places, const std::string &key) const;
+
+    /// Positions with the tips of all normals of a shell, instead of the slopes of edges where these are not held.
+    Vector
+    with_tips(Vector positions, const std::vector<bool> &is_held) const;
+
+    /// Positions with slopes instead of the tips of normals, at edges where they are not held.
+    Vector
+    with_slopes(Vector positions, const std::vector<bool> &is_held) const;
+
+    /// The strains of a shell's triangles at positions with the tips of all normals.
+    std::vector<ShellStrain>
+    shell_strains(const Vector &positions_with_tips) const;
 
     unsigned int
     n_nodes() const
@@ -189,11 +233,16 @@ namespace Exemplar
     void
     compute_gradients();
 
+    void
+    set_rest();
+
     const Mesh                  &mesh;
     const Element                kind;
     const NodeNumbering          nodes_of_element;
     const dealii::FESystem<3>    fe;
     const dealii::MappingFE<3>   mapping;
+    std::vector<ShellSection>        sections;   ///< of a shell
+    std::unique_ptr<const ShellMesh> shell_mesh; ///< null: none
     std::vector<Vector3<double>> shape_gradients;
     std::vector<double>          volumes;
     dealii::Vector<double>       rest;

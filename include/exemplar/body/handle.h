@@ -8,6 +8,7 @@
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/prm/expression.h>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,16 @@ namespace Exemplar
     Motion                    function; ///< motion set by a program, instead of the others
     HoldingTime               time  = {};
     bool                      holds = true;
+
+    unsigned int first_slope = std::numeric_limits<unsigned int>::max(); ///< NodeNumbering::n_places()
+
+    /// The components of a node that are held: of slopes all.
+    const std::vector<unsigned int> &
+    components_of(const unsigned int node) const
+    {
+      static const std::vector<unsigned int> xyz{ 0, 1, 2 };
+      return node < first_slope ? components : xyz;
+    }
 
     /// Nodes that are held now: all of them, or none.
     const std::vector<unsigned int> &

@@ -49,6 +49,7 @@ namespace Exemplar
     Selection   select;
     std::string motion     = "0; 0; 0";
     std::string components = "x, y, z";
+    std::string slopes     = "auto"; ///< held or free; auto: held where all components are
     std::string follow_pose; ///< a file; empty: `motion` says where the nodes go
     std::string progress = "t";
     std::string follow_cache; ///< a file of places of the surface's vertices in time; empty: none
@@ -64,6 +65,10 @@ namespace Exemplar
     /// key that belongs to none of those given, and for an invalid From or Until.
     void
     check() const;
+
+    /// Whether the normals of a shell at edges between held nodes turn with the handle.
+    bool
+    holds_slopes() const;
 
     /// The values of From and Until. check() must have passed.
     HoldingTime

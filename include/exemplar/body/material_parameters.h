@@ -49,6 +49,8 @@ namespace Exemplar
     std::string fibre_tension       = "0"; ///< T [Pa], a formula of x, y, z and t
     std::string fibre_tension_curve = {};  ///< see TensionCurve; empty: constant
 
+    double thickness = 0.; ///< of a shell [m]; 0: not given
+
     /// Whether the elasticity of cells has material axes.
     bool
     has_grain() const;

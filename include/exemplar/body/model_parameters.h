@@ -24,6 +24,13 @@ namespace Exemplar
     patches ///< mean over a patch, Eqs. (25) and (37)
   };
 
+  /// What a shell resists, and what its examples ask for.
+  enum class ShellKind
+  {
+    plate, ///< membrane strains and curvatures of triangles
+    hinges ///< lengths of edges and angles between triangles
+  };
+
   /// The energy of the body without examples.
   enum class Background
   {
@@ -39,6 +46,7 @@ namespace Exemplar
     DilatationKind dilatation = DilatationKind::automatic;
     Element        element    = Element::P1;
     Background     background = Background::corotational;
+    ShellKind      shell      = ShellKind::plate;
 
     void
     declare(KeyTable &keys);

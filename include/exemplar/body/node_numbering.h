@@ -24,11 +24,14 @@ namespace Exemplar
 
   /// The nodes of a finite element on a mesh: the vertices, which are the nodes of the mesh file,
   /// followed by one in the middle of each edge for quadratic elements, in ascending order of the
-  /// edges' ends, the lesser one first.
+  /// edges' ends, the lesser one first. Behind the vertices of a shell that has slopes there is one for the slope of the normal at
+  /// each edge, in the same order; it belongs to no cell. A slope that is free has one degree of freedom, the component x,
+  /// which is the turn of the normal out of the bisector times the edge's length [m]; y and z are 0 and held. A slope that
+  /// is held has three, the place of the normal's tip, as far from the middle of the edge as that is long.
   class NodeNumbering
   {
   public:
-    NodeNumbering(const Mesh &mesh, Element element);
+    NodeNumbering(const Mesh &mesh, Element element, bool has_slopes = false);
 
     NodeNumbering(const NodeNumbering &) = delete; ///< it refers to itself
 
@@ -42,6 +45,31 @@ namespace Exemplar
     n_vertices() const
     {
       return mesh.n_nodes();
+    }
+
+    /// Whether the nodes behind the vertices are slopes.
+    bool
+    has_slopes() const
+    {
+      return mesh.is_shell() && !edges.empty();
+    }
+
+    /// How many of the first nodes are places in space: all but slopes.
+    unsigned int
+    n_places() const
+    {
+      return has_slopes() ? n_vertices() : n_nodes();
+    }
+
+    /// The components of slopes that are never free, as degrees of freedom.
+    std::vector<unsigned int>
+    fixed_dofs() const;
+
+    /// The edges with a node, by their ends.
+    const std::vector<std::array<unsigned int, 2>> &
+    get_edges() const
+    {
+      return edges;
     }
 
     /// Nodes of a cell: its vertices and then the middles of its edges 01, 12, 20, 03, 13, 23,

@@ -13,7 +13,7 @@ namespace Exemplar
   /// Checks a pose by its size and its cells' volumes: collapsed, in other units, flat, mirrored,
   /// with inverted cells, or, unless it `may_be_rest`, the rest pose moved rigidly. `positions` [m]
   /// are by degree of freedom. Returns a clause that follows the pose's name in a warning; empty if
-  /// nothing looks wrong. Collective.
+  /// nothing looks wrong, and for a shell. Collective.
   std::string
   describe_pose(const Mesh                   &mesh,
                 const FESpace                &fe_space,

@@ -7,11 +7,15 @@
 #include <deal.II/lac/vector.h>
 
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace Exemplar
 {
-  // Functions that take a mesh or an exchange are collective.
+  // Functions that take a mesh or an exchange are collective. Those with `n_places` leave the nodes from that number on alone, which
+  // are no places: NodeNumbering::n_places().
+
+  constexpr unsigned int all_places = std::numeric_limits<unsigned int>::max();
 
   /// How many of the six rigid motions of each piece of the mesh the held degrees of freedom (3 i + c) leave free.
   std::vector<unsigned int>
@@ -24,7 +28,7 @@ namespace Exemplar
   /// the whole body.
   struct StaticallyDeterminateSupport
   {
-    std::array<unsigned int, 4>     corners;   ///< nodes of the cell
+    std::array<unsigned int, 4>     corners;   ///< nodes of the cell; of a triangle the first one twice
     std::array<dealii::Point<3>, 4> rest;      ///< their positions at rest [m]
     std::array<unsigned int, 3>     nodes;     ///< the nodes with held degrees of freedom
     std::vector<unsigned int>       held_dofs; ///< ascending
@@ -42,6 +46,11 @@ namespace Exemplar
   support_near_centroid(const std::vector<dealii::Point<3>>            &nodes,
                         const std::vector<std::array<unsigned int, 4>> &cells);
 
+  /// The same of the triangles of a shell.
+  StaticallyDeterminateSupport
+  support_near_centroid(const std::vector<dealii::Point<3>>            &nodes,
+                        const std::vector<std::array<unsigned int, 3>> &triangles);
+
   /// Rotate `positions` so that the supported cell has its orientation at rest, unless it deviates
   /// from that by less than `angle` [rad]. The support was chosen for that orientation and is a
   /// poor one in others. Returns whether they were rotated.
@@ -49,21 +58,24 @@ namespace Exemplar
   turn_to_support(const StaticallyDeterminateSupport &support,
                   double                              angle,
                   dealii::Vector<double>             &positions,
-                  const Exchange                     &exchange);
+                  const Exchange                     &exchange,
+ unsigned int n_places = all_places);
 
   /// Subtract the best-fitting infinitesimal rigid motion (translation and rotation, least squares
   /// over the nodes) from a displacement [m] of `positions`.
   void
   remove_rigid_motion(const dealii::Vector<double> &positions,
                       dealii::Vector<double>       &displacement,
-                      const Exchange               &exchange);
+                      const Exchange               &exchange,
+ unsigned int n_places = all_places);
 
   /// Move `positions` rigidly so that they come nearest to `reference` in the least-squares sense
   /// over the nodes (Kabsch 1976), Eq. (15).
   void
   align(const dealii::Vector<double> &reference,
         dealii::Vector<double>       &positions,
-        const Exchange               &exchange);
+        const Exchange               &exchange,
+ unsigned int n_places = all_places);
 
   /// align() by those nodes alone that have all three components among `dofs` on some process, or
   /// by all nodes if these are collinear or fewer than three.

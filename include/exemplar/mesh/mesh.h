@@ -4,6 +4,7 @@
 
 #include <exemplar/mesh/mesh_part.h>
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/grid/tria.h>
 
 #include <array>
@@ -13,9 +14,9 @@
 
 namespace Exemplar
 {
-  /// The tetrahedral rest mesh. Node i is the i-th node of the file, cell c its c-th tetrahedron;
-  /// the Triangulation has the same numbering, and results go back to disk in it. Each process has
-  /// a part of a distributed mesh.
+  /// The rest mesh: tetrahedra, or the triangles of a shell. Node i is the i-th node of the file, cell c its c-th tetrahedron
+  /// or triangle; the Triangulation, which tetrahedra alone have, has the same numbering, and results go back to disk in it.
+  /// Each process has a part of a distributed mesh.
   class Mesh
   {
   public:
@@ -25,7 +26,10 @@ namespace Exemplar
     /// Multiply the nodes by `scale`, check, and build the Triangulation. `name` stands for the
     /// file in messages. Throws UserError with element or node numbers of the file for an invalid
     /// body, and for a scale that is not positive.
-    Mesh(MshFile contents, const std::string &name, double scale = 1.);
+    Mesh(MshFile            contents,
+         const std::string &name,
+         double             scale = 1.,
+         MeshKind           kind  = MeshKind::solid);
 
     /// The part of a process. Collective.
     Mesh(MeshPart part, const std::string &name, double scale);
@@ -39,7 +43,13 @@ namespace Exemplar
     unsigned int
     n_cells() const
     {
-      return static_cast<unsigned int>(arrays.cells.size());
+      return static_cast<unsigned int>(arrays.material_ids.size());
+    }
+
+    bool
+    is_shell() const
+    {
+      return !arrays.triangles.empty();
     }
 
     /// Facts of the whole body, of which this may be a part.
@@ -77,7 +87,22 @@ namespace Exemplar
       return *with_others;
     }
 
-    /// Positively oriented nodes of each tetrahedron.
+    /// The nodes of a tetrahedron or of a shell's triangle.
+    dealii::ArrayView<const unsigned int>
+    corners(const unsigned int cell) const
+    {
+      return is_shell() ? dealii::ArrayView<const unsigned int>(arrays.triangles[cell].data(), 3)
+                        : dealii::ArrayView<const unsigned int>(arrays.cells[cell].data(), 4);
+    }
+
+    /// The triangles of a shell.
+    const std::vector<std::array<unsigned int, 3>> &
+    get_triangles() const
+    {
+      return arrays.triangles;
+    }
+
+    /// Positively oriented nodes of each tetrahedron; empty for a shell.
     const std::vector<std::array<unsigned int, 4>> &
     get_cells() const
     {

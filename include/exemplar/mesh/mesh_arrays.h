@@ -24,11 +24,13 @@ namespace Exemplar
     }
   };
 
-  /// A checked tetrahedral mesh. Node i is the i-th node of the file, cell c its c-th tetrahedron.
+  /// A checked mesh of tetrahedra or of triangles. Node i is the i-th node of the file, cell c its c-th tetrahedron, or of a
+  /// shell its c-th triangle.
   struct MeshArrays
   {
     MshFile                                  contents; ///< the file as read, with scaled nodes [m]
-    std::vector<std::array<unsigned int, 4>> cells;    ///< positively oriented
+    std::vector<std::array<unsigned int, 4>> cells;    ///< positively oriented; empty for a shell
+    std::vector<std::array<unsigned int, 3>> triangles = {}; ///< of a shell
     std::vector<unsigned int>                material_ids;
     std::vector<std::size_t>                 element_numbers; ///< numbers in the file
     std::vector<BoundaryFace>                boundary_faces;
@@ -41,6 +43,11 @@ namespace Exemplar
   /// is not positive.
   MeshArrays
   check_mesh(MshFile contents, const std::string &name, double scale);
+
+  /// The same for a shell: triangles that meet at edges in pairs, turned alike, in one piece or more. Boundary ids are those of the
+  /// triangles, as the materials are.
+  MeshArrays
+  check_shell(MshFile contents, const std::string &name, double scale);
 
   /// Diagonal of the bounding box.
   double

@@ -52,6 +52,11 @@ namespace Exemplar
                const MshFile                       &contents,
                const std::string                   &name);
 
+  /// Make metres of the nodes' coordinates and check them. Throws UserError for a scale that is not positive, and as
+  /// check_places().
+  void
+  scale_nodes(MshFile &contents, const std::string &name, double scale);
+
   /// Refuse nodes that belong to no tetrahedron: they would have no stiffness.
   void
   check_orphan_nodes(const MshFile     &contents,

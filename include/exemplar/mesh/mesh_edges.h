@@ -16,6 +16,10 @@ namespace Exemplar
   std::vector<std::array<unsigned int, 2>>
   edges_of(const std::vector<std::array<unsigned int, 4>> &cells);
 
+  /// The same of triangles.
+  std::vector<std::array<unsigned int, 2>>
+  edges_of(const std::vector<std::array<unsigned int, 3>> &triangles);
+
   /// Index in edges_of() of the edge between two nodes, which must exist.
   unsigned int
   find_edge(const std::vector<std::array<unsigned int, 2>> &edges, unsigned int a, unsigned int b);

@@ -17,6 +17,13 @@ namespace Exemplar
     box
   };
 
+  /// What a mesh is made of.
+  enum class MeshKind
+  {
+    solid, ///< tetrahedra
+    shell  ///< triangles, which have a thickness
+  };
+
   /// Subsection Mesh. Exactly one of `file` and `generator` must be given, unless a program passes
   /// its own mesh.
   ///
@@ -26,6 +33,7 @@ namespace Exemplar
   /// boundary ids are 1..6 for x-, x+, y-, y+, z-, z+, its material id is 1.
   struct MeshParameters
   {
+    MeshKind                    kind = MeshKind::solid;
     std::string                 file;
     std::string                 surface;           ///< a file; empty: see surface_file()
     std::vector<std::string>    carried;           ///< files of surfaces that are carried along
@@ -50,7 +58,7 @@ namespace Exemplar
     void
     check_carried() const;
 
-    /// Whether `file` is a surface, to be filled with cells.
+    /// Whether `file` is a surface that is to be filled with cells.
     bool
     is_surface() const;
 

@@ -43,6 +43,10 @@ namespace Exemplar
     /// where they are those that the places at rest give. A section of our own, $SurfaceTies, has
     /// them: their number, and a line of four node numbers and four shares each.
     std::vector<SurfaceTie> surface_ties = {};
+    /// The tips of the normals at the edges of a shell in a pose, by ascending ends of the edges, as far from the middles as the
+    /// edges are long at rest; empty: none are known. A section of our own, $NormalTips, has them: their number, and a line of
+    /// three coordinates each.
+    std::vector<dealii::Point<3>> normal_tips = {};
     std::string             note = {}; ///< for the user, on conversions of the file; empty: none
     /// Restrictions of gmsh when it made this of a .geo ("text", "seccomp", "landlock"); no value
     /// if it was not made of one.

@@ -33,6 +33,8 @@ namespace Exemplar
     void
     read_surface_ties();
     void
+    read_normal_tips();
+    void
     read_nodes_2();
     void
     read_nodes_4();

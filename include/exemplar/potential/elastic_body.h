@@ -18,6 +18,16 @@ namespace Exemplar
   /// Pairs of nodes whose degrees of freedom a matrix couples.
   using NodePairs = std::vector<std::pair<unsigned int, unsigned int>>;
 
+  /// What frames show of a cell: means over its quadrature points, and the least det F.
+  struct CellResults
+  {
+    std::vector<double> strain_energy_density; ///< 1/2 e:C:e of the elastic strain [J/m^3]
+    std::vector<double> det_F;                 ///< of a shell the ratio of the area to that at rest
+    std::vector<double> von_mises_stress; ///< of the corotated stress C:(e - eta E(w)) [Pa]
+    std::vector<double> plastic_strain
+        = {}; ///< the equivalent one [-]; empty unless cells may yield
+  };
+
   /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping, as solvers know it, whatever the body is
   /// made of. Rotations are kept ("frozen") until update_rotations() or an evaluation that updates
   /// them. Positions, displacements and forces are by degree of freedom.
@@ -67,6 +77,10 @@ namespace Exemplar
     /// Whether a law has history variables.
     virtual bool
     remembers() const = 0;
+
+    /// What the laws remember before the first step, in the layout of State::history; empty: nothing.
+    virtual std::vector<double>
+    initial_history() const = 0;
 
     /// Let the laws remember this, in the layout of State::history; empty: nothing.
     virtual void
@@ -124,6 +138,11 @@ namespace Exemplar
     /// c_i with dPsi/dw = H w - c at these positions [J].
     virtual std::vector<double>
     weight_linear_term(const Vector &positions, RotationUse rotations = RotationUse::keep) = 0;
+
+    /// What frames show.
+    virtual CellResults
+    cell_results(const Vector &positions, const std::vector<double> &weights)
+        = 0;
 
     /// A residual force [N] that is nothing but the rounding of the positions. Their greatest coordinate is `size` [m], or
     /// what it is at rest if that is more.

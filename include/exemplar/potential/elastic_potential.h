@@ -14,16 +14,6 @@
 
 namespace Exemplar
 {
-  /// What frames show of a cell: means over its quadrature points, and the least det F.
-  struct CellResults
-  {
-    std::vector<double> strain_energy_density; ///< 1/2 e:C:e of the elastic strain [J/m^3]
-    std::vector<double> det_F;
-    std::vector<double> von_mises_stress; ///< of the corotated stress C:(e - eta E(w)) [Pa]
-    std::vector<double> plastic_strain
-        = {}; ///< the equivalent one [-]; empty unless cells may yield
-  };
-
   /// What the cells of a body are: their laws, geometry and material, and the examples, which may be
   /// none. All must outlive whoever holds this.
   struct ElasticParts
@@ -126,6 +116,12 @@ namespace Exemplar
       return cells.get_batches().remembers();
     }
 
+    std::vector<double>
+    initial_history() const override
+    {
+      return cells.get_batches().history();
+    }
+
     void
     set_history(const std::vector<double> &history) override
     {
@@ -194,7 +190,7 @@ namespace Exemplar
     rounding_weight_gradient() const override;
 
     CellResults
-    cell_results(const Vector &positions, const std::vector<double> &weights);
+    cell_results(const Vector &positions, const std::vector<double> &weights) override;
 
     std::size_t
     memory_consumption() const override;
@@ -207,15 +203,6 @@ namespace Exemplar
     /// how loops that follow there find the rotations.
     RotationUse
     find_pressures(const TermPoint &at, RotationUse rotations);
-
-    void
-    add_penalty(const std::vector<double> &weights, ElasticEvaluation &result) const;
-
-    /// H w - c.
-    void
-    set_weight_gradient(const std::vector<double> &weights,
-                        const std::vector<double> &linear_term,
-                        ElasticEvaluation         &result) const;
 
     /// Call function(point) for the quadrature points of the cells beside held nodes.
     template <typename Function>

@@ -46,7 +46,7 @@ namespace Exemplar
     std::vector<double>                    integrals; ///< of f, from the first stretch to each
   };
 
-  /// Active fibres, Eq. (44): sum V T(t) W(|F a|) with the tension T of a cell at the end of a step, its fibres a at rest and
+  /// Active fibres, Eq. (45): sum V T(t) W(|F a|) with the tension T of a cell at the end of a step, its fibres a at rest and
   /// the integral W of its TensionCurve; |F a| - 1 without one.
   class FibreTensionTerm : public PotentialTerm
   {

@@ -42,7 +42,7 @@ namespace Exemplar::Python
 
   /// The mesh of a tuple (nodes, cells) or (nodes, cells, material ids).
   MshFile
-  mesh_of(const pybind11::object &mesh);
+  mesh_of(const pybind11::object &mesh, MeshKind kind);
 } // namespace Exemplar::Python
 
 #endif

@@ -21,12 +21,12 @@ namespace Exemplar
     /// Makes a bordered system for the potential's pattern and free degrees of freedom as they are.
     using MakeSystem = std::function<std::unique_ptr<BorderedSystem>()>;
 
-    /// `turns_freely`: the held degrees of freedom only keep A regular, and steps are freed of
-    /// their rigid motion. The potential and the clock must outlive the system.
+    /// `n_turning`: with others than 0 the held degrees of freedom only keep A regular, and steps are freed of
+    /// the rigid motion of so many nodes, the first ones. The potential and the clock must outlive the system.
     StepSystem(IncrementalPotential &potential,
                MakeSystem            make_system,
                StepClock            &clock,
-               bool                  turns_freely);
+               unsigned int          n_turning);
 
     /// Assemble at these positions and weights, with the rotations as they are, and factorise.
     /// `convexity` as for PotentialTangent::assemble(). Throws SolverFailure if the matrix is
@@ -177,7 +177,7 @@ namespace Exemplar
     std::unique_ptr<BorderedSystem> system;
     unsigned int                    pattern_version, dofs_version; ///< of the system
     StepClock                      &clock;
-    const bool                      turns_freely;
+    const unsigned int              n_turning;
     BackgroundFactor                background;
     unsigned int                    factorizations = 0, remade = 0;
     unsigned int                    factor_of = 0; ///< FreeDofs::version(); 0: none was made

@@ -202,7 +202,7 @@ namespace Exemplar
       void
       look_back(const WeightedPositions &past)
       {
-        CellField                    &field = problem.cells.get_field();
+        CellField                    &field = problem.cells().get_field();
         dealii::AlignedVector<double> places(4 * field.n_nodes());
         pad_nodes(*past.positions, places);
         const CellTask task = field.task_elsewhere(places.data());

@@ -18,14 +18,16 @@ namespace Exemplar
     std::string
     piece_of(const FESpace &fe_space)
     {
-      return fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", fe_space.n_nodes(),
+      return fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", fe_space.numbering().n_places(),
                          fe_space.n_cells());
     }
 
     std::string
     cells_of(const FESpace &fe_space)
     {
-      return cells_of_grid(fe_space.n_cells(), traits_of(fe_space.element()).vtk_type,
+      constexpr unsigned char vtk_triangle = 5;
+      return cells_of_grid(fe_space.n_cells(),
+                           fe_space.is_shell() ? vtk_triangle : traits_of(fe_space.element()).vtk_type,
                            [&](const unsigned int cell) { return fe_space.nodes(cell); });
     }
 
@@ -77,7 +79,7 @@ namespace Exemplar
     public:
       VtuWriter(const Mesh &mesh, const FESpace &fe_space)
           : head(head_of_grid()), piece(piece_of(fe_space)), cells(cells_of(fe_space)),
-            regions(regions_of(mesh))
+            regions(regions_of(mesh)), name_of_ratio(mesh.is_shell() ? "area_ratio" : "det_F")
       {
       }
 
@@ -102,7 +104,7 @@ namespace Exemplar
             write_vector(out, field.name, field.values);
         out << "</PointData>\n<CellData>\n";
         write_scalars(out, "strain_energy_density", frame.cells.strain_energy_density);
-        write_scalars(out, "det_F", frame.cells.det_F);
+        write_scalars(out, name_of_ratio, frame.cells.det_F);
         write_scalars(out, "von_mises_stress", frame.cells.von_mises_stress);
         if (!frame.cells.plastic_strain.empty())
           write_scalars(out, "plastic_strain", frame.cells.plastic_strain);
@@ -122,6 +124,7 @@ namespace Exemplar
     private:
       const std::string head, piece;    ///< up to the points
       const std::string cells, regions; ///< encoded once, the same in all frames
+      const std::string name_of_ratio;
     };
   } // namespace
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/body/grain_axes.h>
 #include <exemplar/body/patches.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_checks.h>
+#include <exemplar/mesh/mesh_edges.h>
 #include <exemplar/run/inputs/body_inputs.h>
 #include <exemplar/run/inputs/surface_readings.h>
 #include <exemplar/run/scene/scene_parameters.h>
@@ -23,6 +25,31 @@ namespace Exemplar
         if (nodes.count(selection.text) == 0)
           nodes[selection.text] = selection.choose(mesh, key, named);
       return nodes;
+    }
+
+    /// The thickness of each triangle [m]. Throws UserError for one that is thick beside the edges.
+    std::vector<double>
+    thicknesses_of(const MaterialParameters &parameters, const Mesh &mesh)
+    {
+      constexpr double thickest = 0.25; // of the mean length of edges
+      const auto       edges    = edges_of(mesh.get_triangles());
+      double           mean     = 0.;
+      for (const auto &[a, b] : edges)
+        mean += mesh.get_nodes()[a].distance(mesh.get_nodes()[b]) / double(edges.size());
+      const auto          regions = regions_by_id(parameters, mesh.get_contents());
+      std::vector<double> thicknesses;
+      for (const unsigned int id : mesh.get_material_ids())
+      {
+        const auto region = regions.find(id);
+        thicknesses.push_back(
+            (region == regions.end() ? parameters.everywhere : region->second).thickness);
+        if (thicknesses.back() > thickest * mean)
+          throw UserError(fmt::format(
+              "Material/Thickness = {}: is more than a quarter of the edges' mean length, {} m, for which the body is no "
+              "shell. Take a coarser mesh, or fill the surface with cells by Mesh/Kind = solid.",
+              shortest_text(thicknesses.back()), short_text(mean)));
+      }
+      return thicknesses;
     }
 
     /// From the unit of the mesh file to metres.
@@ -54,6 +81,8 @@ namespace Exemplar
       NamedNodes named = inputs.nodes;
       named.insert(readings.nodes.begin(), readings.nodes.end());
       BodyFields fields;
+      if (mesh.is_shell())
+        fields.thicknesses = thicknesses_of(scene.material, mesh);
       fields.material = Material(
           scene.material, mesh.get_material_ids(), mesh.get_contents(), readings.material,
           find_grain_axes(scene.material, mesh, named, readings.material.fibre_direction,
@@ -73,7 +102,9 @@ namespace Exemplar
             "itself, or set Scene = static with handles that hold each.",
             mesh.get_name(), mesh.n_pieces(), list_numbers(mesh.whole().pieces.first_elements)));
       if (scene.scene == SceneKind::interpolation)
-        fields.support = support_near_centroid(mesh.get_nodes(), mesh.get_cells());
+        fields.support = mesh.is_shell()
+                             ? support_near_centroid(mesh.get_nodes(), mesh.get_triangles())
+                             : support_near_centroid(mesh.get_nodes(), mesh.get_cells());
       return fields;
     }
   } // namespace
@@ -83,7 +114,8 @@ namespace Exemplar
   {
     const bool      needs_inputs = scene.output.space_error != SpaceErrorUse::never;
     auto            kept         = needs_inputs ? std::make_shared<const Inputs>(inputs) : nullptr;
-    Mesh            mesh(std::move(inputs.mesh), scene.mesh.name(), scene.mesh.scale);
+    Mesh            mesh(std::move(inputs.mesh), scene.mesh.name(), scene.mesh.scale,
+                         scene.mesh.kind);
     SurfaceReadings readings = read_off_surface(scene, mesh, inputs);
     BodyFields      fields   = make_fields(scene, mesh, inputs, readings);
     return { std::move(mesh),

@@ -6,6 +6,7 @@
 #include <exemplar/mesh/mesh_arrays.h>
 #include <exemplar/mesh/mesh_file.h>
 #include <exemplar/run/inputs/inputs.h>
+#include <exemplar/run/inputs/shell_inputs.h>
 #include <exemplar/run/scene/scene_parameters.h>
 #include <exemplar/surface/shape/triangle_surface.h>
 
@@ -65,7 +66,9 @@ namespace Exemplar
               && inputs.obstacles.count(obstacle.name) == 0)
             inputs.obstacles[obstacle.name] = read_obstacle(obstacle);
         if (inputs.mesh.nodes.empty())
-          inputs.mesh = is_to_be_filled(scene.mesh) ? surfaces.make_mesh() : load_mesh(scene.mesh);
+          inputs.mesh = is_shell()                     ? load_shell(scene.mesh)
+                        : is_to_be_filled(scene.mesh) ? surfaces.make_mesh()
+                                                      : load_mesh(scene.mesh);
         for (const auto &[selection, key] : scene.selections())
           add_nodes(selection.file(), key);
         for_each_pose([this](const std::string &file) { add(file); });
@@ -114,15 +117,22 @@ namespace Exemplar
       {
         require_file(file, "a pose: a mesh (" + mesh_extensions + "), or a surface",
                      is_surface_file(file) ? scene.mesh.surface_file() : scene.mesh.file);
-        if (is_surface_file(file))
+        if (is_surface_file(file) && !is_shell())
           surfaces.read_pose(file);
+      }
+
+      bool
+      is_shell() const
+      {
+        return scene.mesh.kind == MeshKind::shell;
       }
 
       void
       add(const std::string &file)
       {
-        inputs.poses[file] = is_surface_file(file) ? surfaces.carry(file, inputs.mesh)
-                                                   : read_pose(file, inputs.mesh, name);
+        inputs.poses[file] = is_shell()              ? read_shell_pose(file, inputs.mesh, name)
+                             : is_surface_file(file) ? surfaces.carry(file, inputs.mesh)
+                                                     : read_pose(file, inputs.mesh, name);
       }
 
       void
@@ -239,6 +249,8 @@ namespace Exemplar
   {
     SceneParameters scene;
     scene.mesh = parameters;
+    if (parameters.kind == MeshKind::shell)
+      return load_shell(parameters);
     return is_to_be_filled(parameters) ? SurfaceInputs(scene, {}).make_mesh()
                                        : load_mesh(parameters);
   }

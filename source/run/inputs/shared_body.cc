@@ -49,6 +49,8 @@ namespace Exemplar
       Parcel own;
       try
       {
+        if (scene.mesh.kind == MeshKind::shell)
+          throw UserError(scene.name + ": Mesh/Kind = shell is not for several processes. Start one.");
         BodyInputs whole = read_body(scene, announce);
         check_middles(whole, scene.model.element);
         const std::vector<PartOfBody> parts

@@ -132,9 +132,11 @@ namespace Exemplar
     append_dissipated(row, shown);
     append_terms(row);
     append_weights(row, shown, report);
-    append(row, "min_det_F", elastic.min_det_F);
-    row.push_back({ "inverted_cells", elastic.inverted_cells });
-    if (is_with_examples)
+    const bool is_shell = problem.body.mesh.is_shell();
+    append(row, is_shell ? "min_area" : "min_det_F", elastic.min_det_F);
+    if (!is_shell)
+      row.push_back({ "inverted_cells", elastic.inverted_cells });
+    if (is_with_examples && !is_shell)
       row.push_back({ "guarded_cells", elastic.guarded_cells });
     if (mass != nullptr)
     {
@@ -151,13 +153,12 @@ namespace Exemplar
   void
   Diagnostics::append_dissipated(StatisticsRow &row, const State &shown) const
   {
-    const CellField &cells      = problem.cells.get_field();
-    const bool       some_yield = cells.get_batches().has_trait(&ModelTraits::dissipated);
+    const bool some_yield = problem.has_trait(&ModelTraits::dissipated);
     if (problem.potential.get_weights().get_memory().in_use() || some_yield
         || problem.potential.has_dissipating_terms(shown))
       append(row, "energy_dissipated",
              shown.dissipated
-                 + (some_yield ? problem.body.exchange().sum(cells.dissipated_energy()) : 0.));
+                 + (some_yield ? problem.body.exchange().sum(problem.cells().get_field().dissipated_energy()) : 0.));
   }
 
   void

@@ -43,6 +43,20 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// Keep the values of so many nodes, the first ones.
+    void
+    leave_slopes_out(Frame &frame, const unsigned int n_places)
+    {
+      for (Vector *const field : { &frame.positions, &frame.displacement, &frame.velocities })
+        if (field->size() > 0)
+          field->grow_or_shrink(3 * n_places);
+      for (NodalField &field : frame.fields)
+        field.values.grow_or_shrink(field.n_components * n_places);
+    }
+  } // namespace
+
   Frame
   frame_of(Problem &problem)
   {
@@ -54,11 +68,13 @@ namespace Exemplar
     frame.displacement = state.positions;
     frame.displacement -= problem.body.fe_space.rest_positions();
     frame.velocities = state.velocities;
-    frame.cells      = problem.cells.cell_results(state.positions, state.weights);
+    frame.cells      = problem.elastic->cell_results(state.positions, state.weights);
     for (const auto &term : problem.potential.get_terms())
       term->append_fields(state.positions, frame.fields);
     for (NodalField &field : frame.fields)
       problem.body.exchange().assemble(field.values.begin(), field.n_components);
+    if (problem.body.fe_space.numbering().has_slopes())
+      leave_slopes_out(frame, problem.body.fe_space.numbering().n_places());
     return frame;
   }
 

@@ -216,12 +216,15 @@ namespace Exemplar
   RunWriter::write_final_pose() const
   {
     const bool   is_linear = problem.parameters.output.final_pose == FinalTetrahedra::linear;
-    const Vector positions = whole(exchange, problem.state.positions);
     const Mesh  &mesh      = problem.body.mesh;
+    const bool   has_tips  = problem.body.fe_space.numbering().has_slopes();
+    const Vector positions
+        = has_tips ? problem.body.fe_space.with_tips(problem.state.positions, problem.held_slopes())
+                   : whole(exchange, problem.state.positions);
     at_root(
         [&]
         {
-          std::vector<dealii::Point<3>> nodes(is_linear ? mesh.whole().n_nodes
+          std::vector<dealii::Point<3>> nodes(is_linear && !has_tips ? mesh.whole().n_nodes
                                                         : positions.size() / 3);
           for (unsigned int dof = 0; dof < 3 * nodes.size(); ++dof)
             nodes[dof / 3][dof % 3] = positions[dof];

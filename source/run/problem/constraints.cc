@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 // Constraints of the body of a problem.
@@ -25,6 +26,15 @@ namespace Exemplar
       return here;
     }
 
+    /// The ascending numbers of both lists.
+    std::vector<unsigned int>
+    united(const std::vector<unsigned int> &a, const std::vector<unsigned int> &b)
+    {
+      std::vector<unsigned int> all;
+      std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+      return all;
+    }
+
     std::string
     names_of_selections(const std::vector<HandleParameters> &handles)
     {
@@ -39,8 +49,9 @@ namespace Exemplar
     reach_of_a_cell(const Body &body, const unsigned int node)
     {
       double minimum = std::numeric_limits<double>::max();
-      for (const auto &cell : body.mesh.get_cells())
-        if (std::find(cell.begin(), cell.end(), node) != cell.end())
+      for (unsigned int c = 0; c < body.mesh.n_cells(); ++c)
+        if (const auto cell = body.mesh.corners(c);
+            std::find(cell.begin(), cell.end(), node) != cell.end())
         {
           double reach = 0.;
           for (const unsigned int corner : cell)
@@ -57,9 +68,10 @@ namespace Exemplar
               const Handles                                     &handles,
               const std::optional<StaticallyDeterminateSupport> &support)
     {
+      const std::vector<unsigned int> fixed = body.fe_space.numbering().fixed_dofs();
       if (support)
-        return dofs_here(body.exchange(), support->held_dofs);
-      const std::vector<unsigned int> held = handles.held_dofs();
+        return united(dofs_here(body.exchange(), support->held_dofs), fixed);
+      const std::vector<unsigned int> held = united(handles.held_dofs(), fixed);
       if (!body.exchange().any(held.size() < body.fe_space.n_dofs()))
         throw UserError(parameters.name
                         + ": the handles hold every node, so there is nothing to solve. Make "
@@ -102,7 +114,8 @@ namespace Exemplar
           = min_of_all(body.exchange(), nodes.empty() ? std::numeric_limits<double>::max()
                                                       : reach_of_a_cell(body, nodes[0]));
       return "Enlarge Handles/" + handles.name(h) + "/Select by " + short_text(1.01 * reach)
-             + " m, and it holds a whole tetrahedron.";
+             + " m, and it holds a whole "
+             + (body.mesh.is_shell() ? "triangle." : "tetrahedron.");
     }
   } // namespace
 
@@ -137,10 +150,10 @@ namespace Exemplar
   void
   Constraints::check(const SceneParameters &parameters, const Body &body, const TimeAxis &axis)
   {
-    check_rigid_motions(parameters, body, held_dofs(parameters, body, handles, support));
+    check_rigid_motions(parameters, body);
     for (unsigned int step = 1; step < axis.n_steps() && handles.have_times(); ++step)
       if (handles.follow_time(axis.time(step)))
-        check_rigid_motions(parameters, body, held_dofs(parameters, body, handles, support));
+        check_rigid_motions(parameters, body);
     handles.follow_time(axis.time(0));
   }
 
@@ -163,7 +176,7 @@ namespace Exemplar
     {
       change(handles);
       const std::vector<unsigned int> held = held_dofs(parameters, body, handles, support);
-      check_rigid_motions(parameters, body, held);
+      check_rigid_motions(parameters, body);
       free_dofs.reinit(held);
     }
     catch (const UserError &)
@@ -174,16 +187,15 @@ namespace Exemplar
   }
 
   void
-  Constraints::check_rigid_motions(const SceneParameters           &parameters,
-                                   const Body                      &body,
-                                   const std::vector<unsigned int> &held) const
+  Constraints::check_rigid_motions(const SceneParameters &parameters,
+                                   const Body            &body) const
   {
     if (parameters.scene != SceneKind::statics)
       return;
     const bool has_obstacles = !parameters.obstacles.empty();
     if (has_obstacles && parameters.obstacles.free != FreeBodies::refused)
       return;
-    const auto         free_of_pieces = n_free_rigid_motions(body.mesh, body.fe_space, held);
+    const auto         free_of_pieces = n_free_rigid_motions(body.mesh, body.fe_space, handles.held_dofs());
     const auto         loose  = std::max_element(free_of_pieces.begin(), free_of_pieces.end());
     const unsigned int n_free = *loose;
     const std::string  of_piece

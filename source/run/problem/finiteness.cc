@@ -74,7 +74,7 @@ namespace Exemplar
     const Evaluation     &evaluation = problem.evaluation;
     IncrementalPotential &potential  = problem.potential;
     const Exchange       &exchange   = problem.body.exchange();
-    const CellResults     cells      = problem.cells.cell_results(state.positions, state.weights);
+    const CellResults     cells      = problem.elastic->cell_results(state.positions, state.weights);
     std::string           what       = exchange.first_text(what_is_not_finite(state, evaluation));
     if (what.empty())
       what = exchange.first_text(what_is_not_finite(cells));
@@ -110,7 +110,7 @@ namespace Exemplar
         = [&](const Vector &x) { return exchange.max(max_entry(x.begin(), x.end())); };
     if (what.empty() && !(maximum(next.positions) < 1e60 * maximum(body.fe_space.rest_positions())))
       what = exchange.first_text(
-          what_is_not_finite(problem.cells.cell_results(next.positions, next.weights)));
+          what_is_not_finite(problem.elastic->cell_results(next.positions, next.weights)));
     if (what.empty())
       return;
     report.status  = SolveStatus::failed;

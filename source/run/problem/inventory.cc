@@ -48,7 +48,7 @@ namespace Exemplar
     const std::size_t     loads         = memory_of_term(problem, "loads");
     const std::size_t     quasi_newton  = memory_of_quasi_newton(problem);
     const std::size_t     cells
-        = problem.body.fe_space.memory_consumption() + problem.cells.memory_consumption();
+        = problem.body.fe_space.memory_consumption() + problem.elastic->memory_consumption();
     std::vector<PartOfProblem> parts = {
       { "mesh", {}, problem.body.mesh.memory_consumption() },
       { "cells", {}, cells },
@@ -67,7 +67,7 @@ namespace Exemplar
       { "initial stresses", !actions.initial_stresses.empty(),
         memory_of_term(problem, "initial stress") },
       { "plastic cells",
-        problem.cells.get_field().get_batches().has_trait(&ModelTraits::plastic_strain),
+        problem.has_trait(&ModelTraits::plastic_strain),
         {} },
       { "mean dilatation by patches", problem.body.patches.size() > 0, {} },
       { "example poses", poses.size() > 0, poses.size() > 0 ? poses.memory_consumption() : 0 },

@@ -28,11 +28,11 @@ namespace Exemplar
     /// The terms of the scene, and then user-defined ones, which are also appended to `own`.
     PotentialTerms
     make_all_terms(const Problem                &problem,
-                   CellField                    &cells,
+                   ElasticPotential             &cells,
                    const TimeIntegrator         *integrator,
                    std::vector<PotentialTerm *> &own)
     {
-      PotentialTerms terms = problem.actions.make_terms(problem.body, cells, integrator);
+      PotentialTerms terms = problem.actions.make_terms(problem.body, &cells, integrator);
       for (const OwnTerm &term : problem.actions.own_terms)
       {
         terms.push_back(term.make());
@@ -110,7 +110,7 @@ namespace Exemplar
         potential(cells,
                   weights,
                   free_dofs,
-                  make_all_terms(problem, cells.get_field(), integrator.get(), own_terms),
+                  make_all_terms(problem, cells, integrator.get(), own_terms),
                   integrator.get())
   {
   }

@@ -52,19 +52,19 @@ namespace Exemplar
       : parameters(scene), clock(std::move(running_clock)), time_axis(make_time_axis(parameters)),
         body(parameters, given), constraints(parameters, body, time_axis, given),
         examples(parameters, body, time_axis, given), actions(parameters, body, given),
-        cells(elastic_parts(
+        elastic(make_elastic_body(
             parameters, body, examples.poses, examples.weights, constraints.free_dofs)),
-        potential(cells,
+        potential(*elastic,
                   examples.weights,
                   constraints.free_dofs,
-                  actions.make_terms(body, cells.get_field(), actions.integrator.get()),
+                  actions.make_terms(body, elastic.get(), actions.integrator.get()),
                   actions.integrator.get(),
                   is_assembled_in_parts(parameters.solver, body.fe_space, examples.weights.size())),
         system(
             potential,
             [this] { return make_bordered_system(parameters.solver, potential); },
             clock,
-            turns_freely(*this) && !parameters.model.is_frozen()),
+            turns_freely(*this) && !parameters.model.is_frozen() ? body.fe_space.numbering().n_places() : 0),
         solver(make_step_solver(parameters.solver, potential, system, constraints.handles, clock)),
         state(initial_state(parameters.initial,
                             body.mesh,
@@ -79,11 +79,13 @@ namespace Exemplar
     {
       actions.initial_stresses = initial_stresses(parameters, body, examples, constraints,
                                                   actions.loads.get(), actions.warnings);
-      potential.add_term(std::make_unique<InitialStressTerm>(cells.get_field(), body.fe_space,
+      potential.add_term(std::make_unique<InitialStressTerm>(cells().get_field(), body.fe_space,
                                                              actions.initial_stresses));
     }
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation(parameters.initial, examples.poses, state);
+    slopes_held.assign(body.fe_space.numbering().n_nodes() - body.fe_space.numbering().n_places(), true);
+    follow_slopes();
     if (actions.obstacles != nullptr)
     {
       check_obstacle_motions(*actions.obstacles, body, time_axis);
@@ -93,7 +95,7 @@ namespace Exemplar
     if (actions.body_contacts != nullptr)
       suit_body_contacts(*actions.body_contacts, *actions.contact_surface,
                          body.fe_space.rest_positions(), state.positions, actions.notes);
-    state.history = cells.get_field().get_batches().history();
+    state.history = elastic->initial_history();
     start(state);
     check_start(*this);
     if (!parameters.session.empty())
@@ -156,7 +158,7 @@ namespace Exemplar
     next.step   = state.step + 1;
     if (turns_freely(*this)
         && turn_to_support(*constraints.support, parameters.model.is_frozen() ? 0. : max_turn,
-                           next.positions, body.exchange()))
+                           next.positions, body.exchange(), body.fe_space.numbering().n_places()))
     {
       solver->forget(); // its memory has not turned with the body
       start(next);
@@ -170,7 +172,7 @@ namespace Exemplar
         actions.integrator->end_step(state, next);
       if (turns_freely(*this))
       {
-        align(state.positions, next.positions, body.exchange());
+        align(state.positions, next.positions, body.exchange(), body.fe_space.numbering().n_places());
         start(next);
       }
       if (parameters.solver.starts == Starts::examples && interval.end == end_of_scene(*this))
@@ -202,6 +204,8 @@ namespace Exemplar
       session->catch_up(earlier.step);
     state = earlier;
     solver->forget();
+    if (!slopes_held.empty())
+      hold_slopes_as_in(std::max(state.step, 1U) - 1);
     follow_time(state.time);
     if (!solver_memory.empty())
     {

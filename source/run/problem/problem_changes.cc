@@ -80,14 +80,48 @@ namespace Exemplar
     refuse_interpolation(parameters, "handles to change.");
     constraints.change_handles(change, parameters, body);
     changes.count("grab() or let_go()");
+    follow_slopes();
     refresh(new_handles);
   }
 
   void
   Problem::follow_time(const double time)
   {
-    if (constraints.follow_time(time, parameters, body))
+    if (!constraints.follow_time(time, parameters, body))
+      return;
+    follow_slopes();
+    refresh(new_handles);
+  }
+
+  std::vector<bool>
+  Problem::held_slopes() const
+  {
+    const NodeNumbering &nodes = body.fe_space.numbering();
+    std::vector<bool>    held;
+    for (unsigned int node = nodes.n_places(); node < nodes.n_nodes(); ++node)
+      held.push_back(constraints.free_dofs.free_index(3 * node) == FreeDofs::held);
+    return held;
+  }
+
+  void
+  Problem::hold_slopes_as_in(const unsigned int step)
+  {
+    if (constraints.follow_time(time_axis.time(step), parameters, body))
       refresh(new_handles);
+    slopes_held = held_slopes();
+  }
+
+  void
+  Problem::follow_slopes()
+  {
+    std::vector<bool> held = held_slopes();
+    if (held == slopes_held)
+      return;
+    const Vector tips = body.fe_space.with_tips(std::move(state.positions), slopes_held);
+    state.positions   = body.fe_space.with_slopes(tips, held);
+    for (unsigned int dof = 3 * body.fe_space.numbering().n_places(); dof < state.velocities.size(); ++dof)
+      state.velocities[dof] = 0.; // slopes have no mass
+    slopes_held = std::move(held);
   }
 
   void
@@ -249,6 +283,10 @@ namespace Exemplar
   Laboratory &
   Problem::laboratory()
   {
+    if (body.mesh.is_shell())
+      throw UserError(parameters.name
+                      + ": energies and derivatives at given places are not for shells (Mesh/Kind) yet. Take what "
+                        "steps give.");
     if (lab == nullptr)
       lab = std::make_unique<Laboratory>(*this);
     return *lab;

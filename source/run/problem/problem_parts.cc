@@ -5,6 +5,7 @@
 #include <exemplar/potential/inertia_term.h>
 #include <exemplar/potential/load_term.h>
 #include <exemplar/potential/obstacle_term.h>
+#include <exemplar/potential/shell_body.h>
 #include <exemplar/run/problem/problem_parts.h>
 
 #include <algorithm>
@@ -88,10 +89,23 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    std::vector<ShellSection>
+    sections_of(const std::vector<double> &thicknesses, const Material &material)
+    {
+      std::vector<ShellSection> sections;
+      for (unsigned int cell = 0; cell < thicknesses.size(); ++cell)
+        sections.push_back({ thicknesses[cell], shell_elasticity(material, cell) });
+      return sections;
+    }
+  } // namespace
+
   Body::Body(const SceneParameters &parameters, BodyInputs &inputs)
       : mesh(std::move(inputs.mesh)),
         material(make_material(parameters.examples, std::move(inputs.fields.material))),
-        fe_space(mesh, parameters.model.element),
+        fe_space(mesh.is_shell() ? FESpace(mesh, sections_of(inputs.fields.thicknesses, material), parameters.model.shell == ShellKind::plate)
+                                 : FESpace(mesh, parameters.model.element)),
         patches(inputs.fields.patches, fe_space, material),
         cell_material(patches.rest_of(material)), made(inputs.undivided.made),
         geo_walls(inputs.undivided.geo_walls), warnings(inputs.undivided.warnings),
@@ -200,9 +214,24 @@ namespace Exemplar
              parameters.solver.n_threads };
   }
 
+  std::unique_ptr<ElasticBody>
+  make_elastic_body(const SceneParameters &parameters,
+                    const Body            &body,
+                    const ExamplePoses    &poses,
+                    ExampleWeights        &weights,
+                    const FreeDofs        &free_dofs)
+  {
+    if (body.mesh.is_shell())
+      return std::make_unique<ShellBody>(ShellParts{ body.fe_space.shell(), body.fe_space, body.material, poses,
+                                                     poses.get_strains(), weights, free_dofs,
+                                                     parameters.solver.n_threads });
+    return std::make_unique<ElasticPotential>(
+        elastic_parts(parameters, body, poses, weights, free_dofs));
+  }
+
   PotentialTerms
   Actions::make_terms(const Body           &body,
-                      CellField            &cells,
+                      ElasticBody          *elastic,
                       const TimeIntegrator *integrator_of_terms) const
   {
     PotentialTerms terms;
@@ -222,7 +251,8 @@ namespace Exemplar
       terms.push_back(
           std::make_unique<FibreTensionTerm>(body.material, body.fe_space, held_tensions));
     if (!initial_stresses.empty())
-      terms.push_back(std::make_unique<InitialStressTerm>(cells, body.fe_space, initial_stresses));
+      terms.push_back(std::make_unique<InitialStressTerm>(
+          dynamic_cast<ElasticPotential &>(*elastic).get_field(), body.fe_space, initial_stresses));
     return terms;
   }
 } // namespace Exemplar

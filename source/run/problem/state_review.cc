@@ -29,7 +29,7 @@ namespace Exemplar
     {
       std::vector<unsigned int> cells;
       const FESpace            &fe_space = problem.body.fe_space;
-      for (unsigned int point = 0; point < fe_space.n_points(); ++point)
+      for (unsigned int point = 0; !fe_space.is_shell() && point < fe_space.n_points(); ++point)
       {
         const unsigned int cell = fe_space.cell_of(point);
         if (test(cell, fe_space.deformation_gradient(point, problem.state.positions))
@@ -302,7 +302,7 @@ namespace Exemplar
         all.push_back(*warning);
     // strains of 1e-4 are no rounding, unless cells or weights have memory
     const double energy    = problem.evaluation.elastic.energy;
-    const bool   remembers = problem.cells.get_field().get_batches().remembers()
+    const bool   remembers = problem.elastic->remembers()
                            || problem.potential.get_weights().get_memory().in_use();
     if (!remembers && is_unloaded(problem)
         && energy > 1e-8 * unit_energy(problem.body.fe_space, problem.body.material))

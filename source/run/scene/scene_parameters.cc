@@ -48,6 +48,8 @@ namespace Exemplar
     }
     if (const std::optional<CellLaw> law = material.law_of_grain(); law)
       model.strain = law_of_grain(*law);
+    if (mesh.kind == MeshKind::shell && model.dilatation == DilatationKind::automatic)
+      model.dilatation = DilatationKind::cells; // no cell of it has a volume of its own
     model.complete();
     // else the ridge alone would move the balanced rest pose
     if (loads.balanced && examples.are_bounded() && examples.weight_penalty == "auto")
@@ -85,6 +87,7 @@ namespace Exemplar
              { interpolates && !(handles.empty() && loads.empty()),
                "Scene = interpolation has neither handles nor loads: it follows its prescribed "
                "weights. Remove Handles/Names and Loads, or choose Scene = static." } });
+    check_shell();
     model.check();
     material.check();
     examples.check();
@@ -110,7 +113,7 @@ namespace Exemplar
     contact.check();
     if (!contact.empty())
       check_contact();
-    if (mesh.surface_file().empty())
+    if (mesh.surface_file().empty() && mesh.kind == MeshKind::solid)
       check_without_surface();
     mesh.check_carried();
     refuse(

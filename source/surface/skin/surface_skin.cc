@@ -32,6 +32,15 @@ namespace Exemplar
                            const std::string &surface_name)
       : rest(surface.vertices), scale(mesh.get_scale())
   {
+    if (mesh.is_shell()) // its vertices are those of the file
+    {
+      for (unsigned int v = 0; v < mesh.n_nodes(); ++v)
+      {
+        shares.push_back({ v, 1. });
+        ends.push_back(shares.size());
+      }
+      return;
+    }
     const SurfaceMesh                in_metres = scaled(surface, scale);
     const std::vector<SurfaceAnchor> anchors   = find_anchors(in_metres, mesh);
     if (!surface_name.empty())

@@ -38,7 +38,7 @@ namespace Exemplar::Testing
       {
         for (int step = 0; step < 3; ++step)
           EXPECT_TRUE(is_success(p.advance().status));
-        EXPECT_GT(p.cells.get_field().dissipated_energy(), 0.);
+        EXPECT_GT(p.cells().get_field().dissipated_energy(), 0.);
         p.potential.begin_step(p.state, step_size);
         p.potential.set_time(p.state.time + step_size, p.state);
         state = p.state;

@@ -28,7 +28,7 @@ namespace Exemplar::Testing
         state.weights = { 0.4, 0.35, 0.25 };
         p.potential.evaluate(state, RotationUse::update, evaluation);
         p.system.factorize(state.positions, state.weights, 1.);
-        p.cells.get_field().node_rotations(rotations);
+        p.cells().get_field().node_rotations(rotations);
         metric.reinit(p.system.bordered(), inverse_columns(p.system.bordered()), rotations);
         metric.rotate(rotations);
       }

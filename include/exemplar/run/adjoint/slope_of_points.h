@@ -184,7 +184,7 @@ namespace Exemplar
     SlopeLoops
     make_loops() const
     {
-      return SlopeLoops(problem.cells.get_field(), problem.state.positions, along,
+      return SlopeLoops(problem.cells().get_field(), problem.state.positions, along,
                         Part::is_damping);
     }
 

@@ -19,6 +19,7 @@ namespace Exemplar
   struct BodyFields
   {
     Material                         material;
+    std::vector<double>              thicknesses = {}; ///< of a shell's triangles [m]
     std::vector<unsigned int>        patches; ///< patch of each cell, see Patches; empty: none
     std::vector<std::vector<double>> shares;  ///< of Examples/Weight maps, a value a cell
     NamedPoses                       poses;

@@ -112,6 +112,27 @@ namespace Exemplar
     void
     add_obstacle(const ObstacleParameters &obstacle, const ObstacleSurface &surface = {});
 
+    /// The body of cells; not for a shell.
+    ElasticPotential &
+    cells() const
+    {
+      auto *const of_cells = dynamic_cast<ElasticPotential *>(elastic.get());
+      AssertThrow(of_cells != nullptr, dealii::ExcMessage("A shell has no cells."));
+      return *of_cells;
+    }
+
+    /// By edges of a shell, whether the slope is held; empty without slopes.
+    std::vector<bool>
+    held_slopes() const;
+
+    /// Whether some cell's law has a trait; those of a shell have none.
+    template <typename Trait>
+    bool
+    has_trait(const Trait trait) const
+    {
+      return !body.mesh.is_shell() && cells().get_field().get_batches().has_trait(trait);
+    }
+
     /// The potential at arbitrary arguments, for use between steps; made at the first call. Throws
     /// UserError if several processes share the body.
     Laboratory &
@@ -171,8 +192,8 @@ namespace Exemplar
     Constraints                       constraints;
     Examples                          examples;
     Actions                           actions;
-    ElasticPotential                  cells;
-    IncrementalPotential              potential; ///< of cells and terms
+    const std::unique_ptr<ElasticBody> elastic;   ///< cells, or the triangles of a shell
+    IncrementalPotential               potential; ///< of these and terms
     StepSystem                        system;
     const std::unique_ptr<StepSolver> solver;
     State                             state;
@@ -195,11 +216,20 @@ namespace Exemplar
     void
     follow_time(double time);
 
+    /// The state has slopes as they are held in a step that begins at the end of this one.
+    void
+    hold_slopes_as_in(unsigned int step);
+
+    /// Let slopes of a shell that have been caught be places of tips in the state, and those that have been let go slopes.
+    void
+    follow_slopes();
+
     /// Make loads if there are none. Throws UserError for an interpolation.
     void
     require_loads();
 
     Changes                        changes;
+    std::vector<bool>              slopes_held; ///< held_slopes() as the state has them
     State                          spare;   ///< memory of a step's end, with the one before in it
     std::unique_ptr<Laboratory>    lab;     ///< null until it is used
     std::unique_ptr<SessionPlayer> session; ///< null unless the scene has one

@@ -105,9 +105,7 @@ namespace Exemplar
 
   private:
     void
-    check_rigid_motions(const SceneParameters           &parameters,
-                        const Body                      &body,
-                        const std::vector<unsigned int> &held) const;
+    check_rigid_motions(const SceneParameters &parameters, const Body &body) const;
   };
 
   /// The example poses and the rule of their weights; both empty in a scene without examples.
@@ -136,6 +134,14 @@ namespace Exemplar
                 ExampleWeights        &weights,
                 const FreeDofs        &free_dofs);
 
+  /// The body of a scene: its cells, or the triangles of a shell; as above.
+  std::unique_ptr<ElasticBody>
+  make_elastic_body(const SceneParameters &parameters,
+                    const Body            &body,
+                    const ExamplePoses    &poses,
+                    ExampleWeights        &weights,
+                    const FreeDofs        &free_dofs);
+
   /// Makes a user-defined term. Called for each potential: that of the steps, and that of a
   /// Laboratory, which copies the state of the term by PotentialTerm::save() and load().
   using MakeTerm = std::function<std::unique_ptr<PotentialTerm>()>;
@@ -152,10 +158,12 @@ namespace Exemplar
   {
     Actions(const SceneParameters &parameters, const Body &body, const BodyInputs &inputs);
 
-    /// The terms of the potential for these, with this time integrator, which is null unless the
-    /// scene is dynamic.
+    /// The terms of the potential for these, with the elastic body that initial stresses act in, and this time integrator, which is
+    /// null unless the scene is dynamic.
     PotentialTerms
-    make_terms(const Body &body, CellField &cells, const TimeIntegrator *integrator_of_terms) const;
+    make_terms(const Body           &body,
+               ElasticBody          *elastic,
+               const TimeIntegrator *integrator_of_terms) const;
 
     std::unique_ptr<Loads>                loads;
     const std::unique_ptr<Mass>           mass;       ///< in dynamic scenes

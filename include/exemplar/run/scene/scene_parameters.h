@@ -114,6 +114,10 @@ namespace Exemplar
     void
     check_tension() const;
 
+    /// Throws UserError for what shells have no place for, and for what only they have.
+    void
+    check_shell() const;
+
     void
     check_starts() const;
 

@@ -22,7 +22,7 @@ namespace Exemplar
   class SurfaceSkin
   {
   public:
-    /// Attaches a surface, in the unit of the mesh's file. If `surface_name`, for messages, is not
+    /// Attaches a surface, in the unit of the mesh's file; that of a shell is the shell itself. If `surface_name`, for messages, is not
     /// empty, the surface is checked: UserError if it is not that of the mesh.
     SurfaceSkin(const SurfaceMesh &surface, const Mesh &mesh, const std::string &surface_name = "");
 

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/run/scene/scene_parameters.h>
+
+namespace Exemplar
+{
+  namespace
+  {
+    constexpr double least_thickness = 1e-6; ///< [m]
+
+    /// A key of a solid that the scene sets, and how it is done without.
+    std::string
+    key_of_solids(const SceneParameters &scene)
+    {
+      std::string key;
+      scene.material.for_each_section(
+          [&](const ElasticConstants &constants, const std::string &section)
+          {
+            for (const auto &[name, value] : constants.own)
+              if (value != default_own_constants().at(name))
+                key = section + "/" + name;
+            if (!constants.orthotropy.empty())
+              key = section + "/Orthotropy";
+            if (constants.has_tension())
+              key = section + "/Fibre tension";
+          });
+      if (!key.empty())
+        return key;
+      const ModelParameters usual;
+      if (scene.model.element != usual.element)
+        key = "Model/Element = P2";
+      if (scene.model.strain != usual.strain)
+        key = "Model/Strain";
+      if (scene.model.background != usual.background)
+        key = "Model/Background";
+      if (scene.model.gradient != usual.gradient)
+        key = "Model/Gradient = frozen";
+      if (scene.model.dilatation == DilatationKind::patches)
+        key = "Model/Dilatation = patches";
+      return key;
+    }
+  } // namespace
+
+  void
+  CompleteScene::check_shell() const
+  {
+    const bool is_shell = mesh.kind == MeshKind::shell;
+    for (const HandleParameters &handle : handles)
+      refuse({ { !is_shell && handle.slopes != HandleParameters().slopes,
+                 "Handles/" + handle.name
+                     + "/Slopes is of shells. Set Mesh/Kind = shell, or remove it." } });
+    material.for_each_section(
+        [&](const ElasticConstants &constants, const std::string &section)
+        {
+          refuse({ { !is_shell && constants.thickness > 0.,
+                     section + "/Thickness is of shells. Set Mesh/Kind = shell, or remove it." },
+                   { is_shell && !(constants.thickness >= least_thickness),
+                     section + "/Thickness = " + shortest_text(constants.thickness)
+                         + ": a shell (Mesh/Kind) needs a thickness of at least 1e-6 m. Set it to what the "
+                           "sheet measures, 0.001 for a millimetre." } });
+        });
+    if (!is_shell)
+      return;
+    const std::string solid = key_of_solids(*this), key = "Mesh/Kind = shell: ";
+    refuse(
+        { { !solid.empty(), key + solid
+                                + " is of bodies with a volume. Remove it, or set Mesh/Kind = solid." },
+          { mesh.generator != MeshGenerator::none,
+            key + "Mesh/Generator makes tetrahedra. Give a surface or a .msh of triangles as Mesh/File." },
+          { model.shell == ShellKind::hinges,
+            key + "Model/Shell = hinges is not there yet. Leave it at plate, which converges." },
+          { material.is_painted(),
+            key + "painted maps of Material are not for shells yet. Give regions their constants instead." },
+          { examples.are_painted() || reads_off_surface(),
+            key + "what is read off a surface (Follow cache, Select = near or painted, maps) is not for shells yet. Select by "
+                  "box, sphere, region, set or nodes." },
+          { !mesh.surface.empty(),
+            key + "Mesh/Surface is the surface that cells fill, but a shell is its own. Remove it." },
+          { output.shows_surface() && !is_surface_file(mesh.file),
+            key + "Output/Formats has a format that shows a surface, of which Mesh/File = " + mesh.file
+                + " is none. Give an .obj, .ply or .stl, or set Output/Formats = vtu." },
+          { !mesh.carried.empty(), key + "Mesh/Carry is not for shells. Remove it." },
+          { loads.balanced,
+            key + "Loads/Balanced = true is not for shells yet. Set it to false." },
+          { examples.acts_on != ActsOn::all || examples.elasticity().is_own(),
+            key + "Examples/Acts on, Example modulus and Example Poisson ratio are of bodies with a volume. Remove them." },
+          { examples.importance * examples.bending_importance > 1.,
+            "Examples/Bending importance times Importance = "
+                + shortest_text(examples.importance * examples.bending_importance)
+                + " is above 1, so that a shell would go beyond its examples. Lower one of them." },
+          { solver.starts == Starts::examples,
+            key + "Solver/Starts = examples is not for shells yet. Set it to state." },
+          { solver.method == Method::one_pass || solver.method == Method::fixed_point,
+            key + "Solver/Method = one pass and fixed point hold rotations of cells. Set it to auto." },
+          { output.space_error != SpaceErrorUse::never,
+            key + "Output/Space error compares tetrahedra. Set it to false." },
+          { !output.functional.empty(),
+            key + "gradients (Output/Functional, vjp) are not for shells yet. Remove it." },
+          { !obstacles.empty() || !contact.empty(),
+            key + "Obstacles and Contact are not for shells yet. Remove them." },
+          { !session.empty(), key + "a session is of the live page, which shells do not have yet. Remove it." } });
+  }
+} // namespace Exemplar
