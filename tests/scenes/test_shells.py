@@ -155,7 +155,7 @@ class Refused(SceneTest):
 
     def test_thickness(self):
         self.refuse("Thickness", {"Material/Thickness": "0"})
-        self.refuse("quarter", {"Material/Thickness": "0.2"})
+        self.refuse("half of the edges", {"Material/Thickness": "0.2"})
 
 
 if __name__ == "__main__":

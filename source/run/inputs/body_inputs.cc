@@ -31,7 +31,7 @@ namespace Exemplar
     std::vector<double>
     thicknesses_of(const MaterialParameters &parameters, const Mesh &mesh)
     {
-      constexpr double thickest = 0.25; // of the mean length of edges
+      constexpr double thickest = 0.5; // of the mean length of edges
       const auto       edges    = edges_of(mesh.get_triangles());
       double           mean     = 0.;
       for (const auto &[a, b] : edges)
@@ -45,7 +45,7 @@ namespace Exemplar
             (region == regions.end() ? parameters.everywhere : region->second).thickness);
         if (thicknesses.back() > thickest * mean)
           throw UserError(fmt::format(
-              "Material/Thickness = {}: is more than a quarter of the edges' mean length, {} m, for which the body is no "
+              "Material/Thickness = {}: is more than half of the edges' mean length, {} m, for which the body is no "
               "shell. Take a coarser mesh, or fill the surface with cells by Mesh/Kind = solid.",
               shortest_text(thicknesses.back()), short_text(mean)));
       }
