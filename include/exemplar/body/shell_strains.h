@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_shell_strains_h
+#define exemplar_shell_strains_h
+
+#include <exemplar/body/shell_mesh.h>
+#include <exemplar/kernels/hinge_angle.h>
+#include <exemplar/kernels/membrane_strain.h>
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace Exemplar
+{
+  /// The strains of a triangle [-]: membrane xx, yy, xy of U - I, then curvature xx, yy, xy times
+  /// thickness/12^(1/2), in the triangle's own frame. A product of two lists counts xy twice, see
+  /// shell_strain_order().
+  using ShellStrain = std::array<double, 6>;
+
+  /// TargetSpace::order for strains.
+  inline std::vector<unsigned int>
+  shell_strain_order()
+  {
+    return { 0, 2, 2, 1, 3, 5, 5, 4 };
+  }
+
+  /// The elasticity of a triangle in plane stress: lambda tr(a) I + 2 mu a of the membrane's part and
+  /// alike of the curvature's [Pa].
+  struct ShellElasticity
+  {
+    double lambda = 0., mu = 0.;
+
+    /// Of a solid with these constants of Lamé, which is free to change its thickness.
+    static ShellElasticity
+    of_solid(const double lambda, const double mu)
+    {
+      return { 2. * lambda * mu / (lambda + 2. * mu), mu };
+    }
+
+    /// T with T.b = a:C:b.
+    ShellStrain
+    stress(const ShellStrain &a) const
+    {
+      const double membrane = lambda * (a[0] + a[1]), bending = lambda * (a[3] + a[4]);
+      return { { membrane + 2. * mu * a[0], membrane + 2. * mu * a[1], 2. * mu * a[2],
+                 bending + 2. * mu * a[3], bending + 2. * mu * a[4], 2. * mu * a[5] } };
+    }
+  };
+
+  /// T.b, in which xy counts twice.
+  inline double
+  contract(const ShellStrain &T, const ShellStrain &b)
+  {
+    return T[0] * b[0] + T[1] * b[1] + 2. * T[2] * b[2] + T[3] * b[3] + T[4] * b[4]
+           + 2. * T[5] * b[5];
+  }
+
+  /// Four nodes of which HingeAngle is a strain.
+  struct ShellHinge
+  {
+    std::array<unsigned int, 4> nodes;
+    double                      rest;  ///< the angle at rest
+    unsigned int                owner; ///< a triangle all of whose hinges' nodes include these
+    unsigned int edge, kind; ///< 0: of its two triangles; 1, 2: of one of these and the director
+  };
+
+  /// How the turn of the normal at a triangle's edge follows from positions: of_hinge times the change of
+  /// a hinge's angle, and of_slope times a slope.
+  struct ShellTurn
+  {
+    int    hinge    = -1; ///< -1: none
+    double of_hinge = 0.;
+    int    slope    = -1; ///< degree of freedom; -1: none
+    double of_slope = 0.; ///< [1/m]
+  };
+
+  /// The plate's strains of a shell (Grinspun, Gingold, Reisman and Zorin 2006). The normal at the middle of
+  /// an edge turns out of the bisector of its triangles. Degree of freedom 3 p of its slope node p is its length
+  /// times that turn; but where the node is held, its place is that of the tip of the edge's director, which
+  /// the normal follows.
+  class ShellStrains
+  {
+  public:
+    /// With no slope node held. The mesh must outlive this.
+    explicit ShellStrains(const ShellMesh &mesh);
+
+    const ShellMesh &
+    get_mesh() const
+    {
+      return mesh;
+    }
+
+    /// Let these slope nodes be held, by edge.
+    void
+    set_held(const std::vector<bool> &new_held);
+
+    bool
+    is_held(const unsigned int edge) const
+    {
+      return held[edge];
+    }
+
+    const std::vector<ShellHinge> &
+    get_hinges() const
+    {
+      return hinges;
+    }
+
+    /// Turns at the three edges of a triangle.
+    const std::array<ShellTurn, 3> &
+    turns(const unsigned int triangle) const
+    {
+      return turns_of_triangles[triangle];
+    }
+
+    HingeAngle<double>
+    hinge_angle(unsigned int hinge, const Vector &positions) const;
+
+    /// The angle of a hinge less that at rest, on the branch nearest the last state.
+    double
+    change(unsigned int hinge, const HingeAngle<double> &angle) const;
+
+    /// Let these positions be those of the last state. Angles are within pi of those there. At
+    /// first they are those of a surface that nowhere folds through itself: within pi of a plane.
+    void
+    update_branches(const Vector &positions);
+
+    MembraneStrain<double>
+    membrane(unsigned int triangle, const Vector &positions) const;
+
+    /// Turns [rad] of the normals at the three edges, from the changes of all hinges.
+    std::array<double, 3>
+    turns_of(unsigned int               triangle,
+             const Vector              &positions,
+             const std::vector<double> &changes) const;
+
+    static ShellStrain
+    strain(const ShellTriangle          &triangle,
+           const MembraneStrain<double> &membrane,
+           const std::array<double, 3>  &turns);
+
+    /// Strains of all triangles.
+    std::vector<ShellStrain>
+    strains(const Vector &positions) const;
+
+    /// The slope l phi [m] of each edge at these positions, whether it is held or not.
+    std::vector<double>
+    slopes(const Vector &positions) const;
+
+    /// The place of the director's tip of an edge that is not held: that of a slope node from which it
+    /// may be held.
+    Vector3<double>
+    tip(unsigned int edge, const Vector &positions) const;
+
+    /// The slopes [m] of least bending energy for given places of the vertices, whatever is held; they are unique. `elasticity`
+    /// is that of a triangle.
+    std::vector<double>
+    least_bending_slopes(const Vector                                       &positions,
+                         const std::function<ShellElasticity(unsigned int)> &elasticity) const;
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
+  private:
+    std::vector<double>
+    changes(const Vector &positions) const;
+
+    void
+    find_turns();
+
+    ShellTurn
+    make_turn(unsigned int triangle, unsigned int i);
+
+    /// An angle on the branch nearest the last state.
+    double
+    nearest(unsigned int edge, unsigned int kind, double angle) const;
+
+    /// The angle of an edge's two triangles; 0 at a border.
+    double
+    angle_of_triangles(unsigned int edge, const Vector &positions) const;
+
+    const ShellMesh                      &mesh;
+    std::vector<bool>                     held;
+    std::vector<std::array<double, 3>>    last_angles; ///< of each edge by ShellHinge::kind
+    std::vector<ShellHinge>               hinges;
+    std::vector<std::array<ShellTurn, 3>> turns_of_triangles;
+  };
+} // namespace Exemplar
+
+#endif

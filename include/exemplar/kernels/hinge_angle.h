@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_hinge_angle_h
+#define exemplar_hinge_angle_h
+
+#include <exemplar/kernels/vector_product.h>
+
+#include <array>
+#include <cmath>
+
+// The angle between two triangles that share an edge, and its derivatives in closed form. No deal.II
+// header here: see matrix3.h.
+
+namespace Exemplar
+{
+  /// A linear form of the velocities of the four nodes of a hinge: its vectors.
+  template <typename Number>
+  using HingeForm = std::array<Vector3<Number>, 4>;
+
+  /// A triangle at an edge: its unit normal n, the unit direction e of the edge, t = e x n, which
+  /// points out of the triangle, and the foot of its height on the edge.
+  template <typename Number>
+  struct HingeSide
+  {
+    HingeSide(const Vector3<Number> &begin, const Vector3<Number> &end, const Vector3<Number> &apex)
+    {
+      const Vector3<Number> edge = difference(end, begin), to_apex = difference(apex, begin);
+      const Vector3<Number> area = cross(edge, to_apex);
+      const Number          size = Exemplar::norm(area);
+      length                     = Exemplar::norm(edge);
+      height                     = size / length;
+      foot                       = dot(to_apex, edge) / (length * length);
+      e                          = times(Number(1.) / length, edge);
+      n                          = times(Number(1.) / size, area);
+      t                          = cross(e, n);
+    }
+
+    /// The form of d.w/h at (begin, end, apex), where w is the velocity of the apex less that of
+    /// the foot, for a direction d.
+    std::array<Vector3<Number>, 3>
+    of_height(const Vector3<Number> &d) const
+    {
+      const Number per_height = Number(1.) / height;
+      return { { times((foot - Number(1.)) * per_height, d), times(-foot * per_height, d),
+                 times(per_height, d) } };
+    }
+
+    Vector3<Number> e, n, t;
+    Number          length, height;
+    Number          foot; ///< s: 0 at the begin of the edge, 1 at its end
+  };
+
+  /// A product factor (a b^T + b a^T) of two forms, which are orthogonal.
+  template <typename Number>
+  struct HingeProduct
+  {
+    Number            factor;
+    HingeForm<Number> a, b;
+  };
+
+  /// The angle in [-pi, pi] by which the normal of triangle (x0, x1, x2) must turn about the edge
+  /// x1 - x0 to be that of triangle (x1, x0, x3): 0 in a plane, and positive where the normals
+  /// diverge.
+  template <typename Number>
+  class HingeAngle
+  {
+  public:
+    HingeAngle(const Vector3<Number> &x0,
+               const Vector3<Number> &x1,
+               const Vector3<Number> &x2,
+               const Vector3<Number> &x3)
+        : first(x0, x1, x2), second(x1, x0, x3)
+    {
+      using std::atan2;
+      const Vector3<Number> edge = difference(x1, x0);
+      const Vector3<Number> a = difference(x2, x0), b = difference(x3, x0);
+      angle = atan2(first.length * dot(edge, cross(b, a)), dot(cross(edge, a), cross(b, edge)));
+    }
+
+    Number
+    value() const
+    {
+      return angle;
+    }
+
+    /// Its derivatives by the four nodes [1/m]: -n/h at an apex.
+    HingeForm<Number>
+    gradient() const
+    {
+      const auto rho_1 = first.of_height(first.n), rho_2 = second.of_height(second.n);
+      const auto minus_sum = [](const Vector3<Number> &u, const Vector3<Number> &v)
+      { return combine(Number(-1.), u, Number(-1.), v); };
+      return { { minus_sum(rho_1[0], rho_2[1]), minus_sum(rho_1[1], rho_2[0]),
+                 times(Number(-1.), rho_1[2]), times(Number(-1.), rho_2[2]) } };
+    }
+
+    /// Its second derivative, the sum of four products. At each side the angle accelerates by
+    /// -2 rho y + 2 tau (z - kappa/2) when nodes have velocities v and no acceleration: with
+    /// (rho, y, z) = (n, t, e).w/h and (tau, kappa) = (n, t).(v1 - v0)/l.
+    std::array<HingeProduct<Number>, 4>
+    hessian() const
+    {
+      const auto               of_first = products(first), of_second = products(second);
+      const std::array<int, 3> at_first = { { 0, 1, 2 } }, at_second = { { 1, 0, 3 } };
+      return { { placed(of_first[0], at_first), placed(of_first[1], at_first),
+                 placed(of_second[0], at_second), placed(of_second[1], at_second) } };
+    }
+
+  private:
+    using SideForm = std::array<Vector3<Number>, 3>;
+
+    struct SideProduct
+    {
+      Number   factor;
+      SideForm a, b;
+    };
+
+    static std::array<SideProduct, 2>
+    products(const HingeSide<Number> &side)
+    {
+      const Number          per_length = Number(1.) / side.length;
+      const Vector3<Number> tau        = times(per_length, side.n);
+      const Vector3<Number> kappa      = times(Number(0.5) * per_length, side.t);
+      SideForm              z          = side.of_height(side.e);
+      z[0]                             = combine(Number(1.), z[0], Number(1.), kappa);
+      z[1]                             = difference(z[1], kappa);
+      const SideForm of_tau            = { { times(Number(-1.), tau), tau, Vector3<Number>{} } };
+      return { { { Number(-1.), side.of_height(side.n), side.of_height(side.t) },
+                 { Number(1.), of_tau, z } } };
+    }
+
+    /// The product of forms at the nodes of a side, by those of the hinge.
+    static HingeProduct<Number>
+    placed(const SideProduct &of_side, const std::array<int, 3> &nodes)
+    {
+      HingeProduct<Number> product{ of_side.factor, {}, {} };
+      for (int i = 0; i < 3; ++i)
+      {
+        product.a[nodes[i]] = of_side.a[i];
+        product.b[nodes[i]] = of_side.b[i];
+      }
+      return product;
+    }
+
+    HingeSide<Number> first, second;
+    Number            angle;
+  };
+
+  /// The sum of products a_k b_k.
+  template <typename Number>
+  Number
+  product(const HingeForm<Number> &a, const HingeForm<Number> &b)
+  {
+    return dot(a[0], b[0]) + dot(a[1], b[1]) + dot(a[2], b[2]) + dot(a[3], b[3]);
+  }
+
+  /// The positive part of m factor (a b^T + b a^T), which is weight u u^T; overwrites b by u.
+  template <typename Number>
+  Number
+  positive_part(const Number &m, HingeProduct<Number> &of)
+  {
+    const Number size_a = sqrt(product(of.a, of.a)), size_b = sqrt(product(of.b, of.b));
+    const Number factor = m * of.factor;
+    const Number ratio  = size_b / size_a * (factor < Number(0.) ? Number(-1.) : Number(1.));
+    for (int i = 0; i < 4; ++i)
+      of.b[i] = combine(Number(1.), of.b[i], ratio, of.a[i]);
+    return Number(0.5) * abs(factor) * size_a / size_b;
+  }
+} // namespace Exemplar
+
+#endif
