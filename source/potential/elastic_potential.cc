@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/potential/elastic_potential.h>
+#include <exemplar/potential/weight_energy.h>
 
 #include <deal.II/base/memory_consumption.h>
 
@@ -158,41 +159,6 @@ namespace Exemplar
   }
 
   void
-  ElasticPotential::add_penalty(const std::vector<double> &weights, ElasticEvaluation &result) const
-  {
-    const WeightMemory               &memory      = parts.weights.get_memory();
-    const double                      stress_norm = std::sqrt(result.stress_square);
-    const ExamplePoses               &examples    = parts.examples;
-    const dealii::FullMatrix<double> &form        = parts.weights.penalty_matrix();
-    for (unsigned int v = 0; v < form.m(); ++v)
-    {
-      double penalty = 0.;
-      for (unsigned int w = 0; w < form.m(); ++w)
-        penalty += form(v, w) * weights[w];
-      result.energy += 0.5 * penalty * weights[v];
-      result.weight_gradient[v] += penalty + memory.force(v, weights[v]);
-      result.weight_scale
-          = max_or_nan(result.weight_scale, stress_norm * examples.norms()[v] + std::abs(penalty)
-                                                + memory.force_scale(v, weights[v]));
-    }
-    result.energy_memory = memory.energy(weights);
-  }
-
-  void
-  ElasticPotential::set_weight_gradient(const std::vector<double> &weights,
-                                        const std::vector<double> &linear_term,
-                                        ElasticEvaluation         &result) const
-  {
-    const dealii::FullMatrix<double> &H = parts.weights.weight_form().H;
-    for (unsigned int v = 0; v < H.m(); ++v)
-    {
-      result.weight_gradient[v] = -linear_term[v];
-      for (unsigned int w = 0; w < H.m(); ++w)
-        result.weight_gradient[v] += H(v, w) * weights[w];
-    }
-  }
-
-  void
   ElasticPotential::evaluate(const Vector              &positions,
                              const std::vector<double> &weights,
                              ElasticEvaluation         &result,
@@ -232,9 +198,9 @@ namespace Exemplar
       block->add({ positions, weights }, own);
     nodal_sums.copy_to(own->gradient, own->force_scale);
     result = complete(parts.fe_space.exchange(), std::move(own));
-    add_penalty(weights, result);
+    add_weight_energy(parts.weights, parts.examples.norms(), weights, result);
     if (linear_term != nullptr)
-      set_weight_gradient(weights, *linear_term, result);
+      set_weight_gradient(parts.weights, weights, *linear_term, result);
   }
 
   std::vector<double>

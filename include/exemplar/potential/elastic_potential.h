@@ -208,15 +208,6 @@ namespace Exemplar
     RotationUse
     find_pressures(const TermPoint &at, RotationUse rotations);
 
-    void
-    add_penalty(const std::vector<double> &weights, ElasticEvaluation &result) const;
-
-    /// H w - c.
-    void
-    set_weight_gradient(const std::vector<double> &weights,
-                        const std::vector<double> &linear_term,
-                        ElasticEvaluation         &result) const;
-
     /// Call function(point) for the quadrature points of the cells beside held nodes.
     template <typename Function>
     void

@@ -99,7 +99,9 @@ namespace Exemplar::Testing
           EXPECT_NEAR(found[i][k], 0., 1e-4);
         // slopes at free borders are those without a moment
         if (std::abs(x[0] - 0.5) < 0.3 && std::abs(x[1] - 0.25) < 0.1)
+        {
           EXPECT_NEAR(found[i][3] + found[i][4], t / std::sqrt(12.) / R, 0.002 * t / R);
+        }
       }
     }
 

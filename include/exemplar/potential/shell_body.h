@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_shell_body_h
+#define exemplar_shell_body_h
+
+#include <exemplar/body/example_weights.h>
+#include <exemplar/body/fe_space.h>
+#include <exemplar/body/material.h>
+#include <exemplar/body/shell_strains.h>
+#include <exemplar/body/target_block.h>
+#include <exemplar/potential/elastic_body.h>
+
+#include <vector>
+
+namespace Exemplar
+{
+  /// What the body of a shell is: its triangles, which are the cells of its material and the points of
+  /// its examples. All must outlive whoever holds this.
+  struct ShellParts
+  {
+    const ShellMesh      &mesh;
+    const FESpace        &fe_space; ///< for its exchange and its order of cells alone
+    const Material       &material;
+    const ExampleTargets &examples;
+    const TargetBlock    &targets; ///< strains, see ShellStrain
+    ExampleWeights       &weights;
+    const FreeDofs
+        &free_dofs; ///< a slope node of which the first component is held is held as a whole
+    unsigned int n_threads = 1; ///< of the loops; no result depends on it
+  };
+
+  /// What frames show of a triangle.
+  struct ShellResults
+  {
+    std::vector<double> strain_energy_density; ///< 1/2 e:C:e [J/m^3]
+    std::vector<double> area_ratio;            ///< area over that at rest
+    std::vector<double> von_mises_stress;      ///< the greater one of the two faces [Pa]
+  };
+
+  /// The body of a shell: of each triangle the energy volume/2 (e - D):C:(e - D) of its six strains, in plane
+  /// stress, in which membrane and curvature have the same form because the latter is scaled.
+  class ShellBody : public ElasticBody
+  {
+  public:
+    /// Needs attach() before all else.
+    explicit ShellBody(const ShellParts &parts);
+
+    SymmetricPattern
+    make_pattern(const NodePairs &more, bool in_parts) const override;
+
+    bool
+    couples_by_products() const override
+    {
+      return false;
+    }
+
+    void
+    attach(const SymmetricPattern &pattern) override;
+
+    void
+    follow_parameters() override;
+
+    void
+    begin_step(double s, const std::vector<WeightedPositions> &past) override;
+
+    void
+    leave_step() override;
+
+    void
+    set_step_size(double /*size*/) override
+    {
+    }
+
+    const CellOrder &
+    history_order() const override
+    {
+      return parts.fe_space.cell_order();
+    }
+
+    bool
+    remembers() const override
+    {
+      return false;
+    }
+
+    void
+    set_history(const std::vector<double> & /*history*/) override
+    {
+    }
+
+    /// Nothing, but angles are on the branch of these positions from now on.
+    std::vector<double>
+    advance_history(const Vector &positions) override;
+
+    void
+    update_rotations(const Vector &positions) override;
+
+    /// Of a vertex that fitted to its triangles; slope nodes do not turn.
+    void
+    node_rotations(std::vector<float> &rotations) override;
+
+    void
+    evaluate(const Vector              &positions,
+             const std::vector<double> &weights,
+             ElasticEvaluation         &evaluation,
+             RotationUse                rotations   = RotationUse::keep,
+             const std::vector<double> *linear_term = nullptr) override;
+
+    void
+    assemble_tangent(Tangent                    tangent,
+                     const Vector              &positions,
+                     const std::vector<double> &weights,
+                     std::vector<double>       &matrix_values,
+                     std::vector<double>       &columns,
+                     OuterProducts             *products = nullptr) override;
+
+    void
+    add_response(Tangent                    tangent,
+                 const Vector              &displacement,
+                 const Vector              &positions,
+                 const std::vector<double> &weights,
+                 ElasticEvaluation         &evaluation) override;
+
+    std::vector<double>
+    weight_linear_term(const Vector &positions, RotationUse rotations = RotationUse::keep) override;
+
+    double
+    rounding_force(double size) const override;
+
+    double
+    rounding_weight_gradient() const override;
+
+    ShellResults
+    results(const Vector &positions, const std::vector<double> &weights);
+
+    /// The elasticity of a triangle.
+    const ShellElasticity &
+    elasticity(const unsigned int triangle) const
+    {
+      return elasticities[triangle];
+    }
+
+    const ShellStrains &
+    get_strains() const
+    {
+      return strains;
+    }
+
+    std::size_t
+    memory_consumption() const override;
+
+  private:
+    /// Three vertices, up to three more nodes of hinges, and up to three slopes.
+    static constexpr unsigned int max_dofs = 21;
+
+    static constexpr unsigned int max_entries = max_dofs * (max_dofs + 1) / 2;
+
+    /// The degrees of freedom that the strains of a triangle depend on.
+    struct TriangleDofs
+    {
+      unsigned int                       n = 0;
+      std::array<unsigned int, max_dofs> dofs{};
+      std::array<std::array<unsigned int, 4>, 3>
+                                   hinges{}; ///< index of the first one of each node, by edge
+      std::array<unsigned int, 3>  slopes{}; ///< their indices, by edge
+      bool                         is_beside_held = false;
+      std::array<int, max_entries> positions{}; ///< of the lower triangle by rows; -1: held
+    };
+
+    struct HingeState
+    {
+      HingeForm<double> gradient;
+      double            moment       = 0.; ///< of both triangles [N m]
+      double            moment_scale = 0.;
+    };
+
+    struct TriangleState
+    {
+      MembraneStrain<double> membrane = { { { 1., 0., 0. } }, { { 0., 1., 0. } } };
+      ShellStrain            strain;
+      ShellStrain            target; ///< D
+      ShellStrain            stress; ///< C:(e - D)
+      ShellStrain            driven; ///< the stress with that of damping
+    };
+
+    /// What a triangle adds to a matrix: the derivatives of its strains by its degrees of freedom,
+    /// and C of these.
+    struct TriangleTangent
+    {
+      std::array<MembraneChange<double>, 9> changes; ///< by the vertices
+      std::array<ShellStrain, max_dofs>     B, CB;
+      std::array<double, max_entries>       entries; ///< lower triangle by rows [N/m]
+    };
+
+    TriangleDofs
+    find_dofs(unsigned int triangle) const;
+
+    /// Find hinges and strains.
+    void
+    find_strains(const Vector &positions, RotationUse rotations);
+
+    /// Find what follows from strains and weights: stresses, and the moments of hinges.
+    void
+    find_stresses(const std::vector<double> &weights);
+
+    /// The moment of the stress at each edge of a triangle [N m].
+    std::array<double, 3>
+    moments(const ShellTriangle &triangle, const ShellStrain &stress) const;
+
+    void
+    add_energies(unsigned int triangle, ElasticSums &sums) const;
+
+    /// Add the forces at the vertices of the membrane's stress and those at slopes, and add to the scales
+    /// of the hinges' moments.
+    void
+    add_forces(unsigned int triangle, ElasticSums &sums);
+
+    /// Add those of the hinges' moments.
+    void
+    add_hinge_forces(ElasticSums &sums) const;
+
+    /// Add factor times the product of a stress in a triangle with what each weight asks for.
+    void
+    add_weight_products(unsigned int         triangle,
+                        const ShellStrain   &stress,
+                        double               factor,
+                        std::vector<double> &sums) const;
+
+    ShellStrain
+    example_strain(unsigned int triangle, unsigned int example) const;
+
+    void
+    find_tangent(unsigned int     triangle,
+                 Tangent          kind,
+                 const Vector    &positions,
+                 TriangleTangent &to) const;
+
+    void
+    find_strain_slopes(unsigned int triangle, TriangleTangent &to) const;
+
+    void
+    add_membrane_geometry(unsigned int triangle, bool convex, TriangleTangent &to) const;
+
+    void
+    add_hinge_geometry(unsigned int     triangle,
+                       bool             convex,
+                       const Vector    &positions,
+                       TriangleTangent &to) const;
+
+    void
+    add_columns(unsigned int           triangle,
+                const TriangleTangent &of,
+                std::vector<double>   &columns) const;
+
+    void
+    estimate_rounding();
+
+    const ShellParts                            parts;
+    ShellStrains                                strains;
+    std::vector<ShellElasticity>                elasticities;
+    const SymmetricPattern                     *pattern = nullptr; ///< since attach()
+    std::vector<TriangleDofs>                   dofs;              ///< since attach()
+    double                                      damping = 0.;      ///< s
+    std::vector<ShellStrain>                    past_strains;      ///< e*; with damping alone
+    std::vector<HingeState>                     hinges;
+    std::vector<TriangleState>                  triangles;
+    std::vector<std::array<Vector3<double>, 3>> frames; ///< turned axes of the triangles
+    double rest_size          = 0.;                     ///< the greatest coordinate at rest [m]
+    double force_of_rounding  = 0.;                     ///< greatest of a node [N]
+    double stress_of_rounding = 0.;                     ///< (sum V T^2)^(1/2)
+  };
+} // namespace Exemplar
+
+#endif

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/loop_parts.h>
+#include <exemplar/potential/shell_body.h>
+
+#include <algorithm>
+
+// The matrix of a shell, and the couplings of its weights.
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// Position of an entry of a lower triangle by rows.
+    unsigned int
+    lower(const unsigned int row, const unsigned int column)
+    {
+      return row * (row + 1) / 2 + column;
+    }
+
+    /// The nodes that the strains of a triangle may depend on, whatever is held.
+    std::vector<unsigned int>
+    nodes_of(const ShellMesh &mesh, const ShellTriangle &triangle)
+    {
+      std::vector<unsigned int> nodes(triangle.nodes.begin(), triangle.nodes.end());
+      for (const unsigned int edge : triangle.edges)
+      {
+        nodes.push_back(mesh.slope_node(edge));
+        for (const unsigned int opposite : mesh.edges()[edge].opposite)
+          if (opposite != ShellEdge::none)
+            nodes.push_back(opposite);
+      }
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      return nodes;
+    }
+  } // namespace
+
+  SymmetricPattern
+  ShellBody::make_pattern(const NodePairs &more, bool /*in_parts*/) const
+  {
+    std::vector<std::vector<unsigned int>> neighbours(parts.mesh.n_nodes()); // and the node itself
+    for (const ShellTriangle &triangle : parts.mesh.triangles())
+    {
+      const std::vector<unsigned int> nodes = nodes_of(parts.mesh, triangle);
+      for (const unsigned int node : nodes)
+        neighbours[node].insert(neighbours[node].end(), nodes.begin(), nodes.end());
+    }
+    for (const auto &[a, b] : more)
+    {
+      neighbours[a].push_back(b);
+      neighbours[b].push_back(a);
+    }
+    for (std::vector<unsigned int> &of_node : neighbours)
+    {
+      std::sort(of_node.begin(), of_node.end());
+      of_node.erase(std::unique(of_node.begin(), of_node.end()), of_node.end());
+    }
+    SymmetricPattern result;
+    result.column_start.push_back(0);
+    for (const unsigned int dof : parts.free_dofs.local_list())
+    {
+      for (const unsigned int node : neighbours[dof / 3])
+        for (unsigned int other = std::max(3 * node, dof); other < 3 * node + 3; ++other)
+          if (const int row = parts.free_dofs.free_index(other); row != FreeDofs::held)
+            result.row.push_back(row);
+      result.column_start.push_back(result.row.size());
+    }
+    return result;
+  }
+
+  void
+  ShellBody::attach(const SymmetricPattern &new_pattern)
+  {
+    pattern                = &new_pattern;
+    const ShellMesh  &mesh = parts.mesh;
+    std::vector<bool> held;
+    for (unsigned int edge = 0; edge < mesh.edges().size(); ++edge)
+      held.push_back(parts.free_dofs.free_index(3 * mesh.slope_node(edge)) == FreeDofs::held);
+    strains.set_held(held);
+    hinges.resize(strains.get_hinges().size());
+    dofs.clear();
+    for (unsigned int t = 0; t < mesh.triangles().size(); ++t)
+      dofs.push_back(find_dofs(t));
+  }
+
+  ShellBody::TriangleDofs
+  ShellBody::find_dofs(const unsigned int triangle) const
+  {
+    TriangleDofs result;
+    const auto   index_of_node = [&](const unsigned int node)
+    {
+      for (unsigned int i = 0; i < result.n; i += 3)
+        if (result.dofs[i] == 3 * node)
+          return i;
+      for (unsigned int c = 0; c < 3; ++c)
+        result.dofs[result.n++] = 3 * node + c;
+      return result.n - 3;
+    };
+    for (const unsigned int node : parts.mesh.triangles()[triangle].nodes)
+      index_of_node(node);
+    for (int i = 0; i < 3; ++i)
+      if (const ShellTurn &turn = strains.turns(triangle)[i]; turn.hinge >= 0)
+        for (int k = 0; k < 4; ++k)
+          result.hinges[i][k] = index_of_node(strains.get_hinges()[turn.hinge].nodes[k]);
+    for (int i = 0; i < 3; ++i)
+      if (const ShellTurn &turn = strains.turns(triangle)[i]; turn.slope >= 0)
+      {
+        result.slopes[i]        = result.n;
+        result.dofs[result.n++] = turn.slope;
+      }
+    result.positions.fill(FreeDofs::held);
+    for (unsigned int p = 0; p < result.n; ++p)
+    {
+      const int row = parts.free_dofs.free_index(result.dofs[p]);
+      result.is_beside_held |= row == FreeDofs::held;
+      for (unsigned int q = 0; q <= p && row != FreeDofs::held; ++q)
+        if (const int column = parts.free_dofs.free_index(result.dofs[q]); column != FreeDofs::held)
+          result.positions[lower(p, q)]
+              = pattern->position(std::max(row, column), std::min(row, column));
+    }
+    return result;
+  }
+
+  void
+  ShellBody::find_strain_slopes(const unsigned int t, TriangleTangent &to) const
+  {
+    const ShellTriangle &triangle = parts.mesh.triangles()[t];
+    to.B.fill({});
+    for (unsigned int p = 0; p < 9; ++p)
+    {
+      Vector3<double> unit{};
+      unit[p % 3]   = 1.;
+      const auto &g = triangle.gradients[p / 3];
+      to.changes[p] = triangles[t].membrane.change(unit, g[0], g[1]);
+      for (int k = 0; k < 3; ++k)
+        to.B[p][k] = to.changes[p].dU[k];
+    }
+    const auto add = [&](const int edge, const double turn, ShellStrain &strain)
+    {
+      for (int k = 0; k < 3; ++k)
+        strain[3 + k] += turn * triangle.bending[edge][k];
+    };
+    for (int i = 0; i < 3; ++i)
+    {
+      const ShellTurn &turn = strains.turns(t)[i];
+      for (int k = 0; k < 4 && turn.hinge >= 0; ++k)
+        for (int c = 0; c < 3; ++c)
+          add(i, turn.of_hinge * hinges[turn.hinge].gradient[k][c], to.B[dofs[t].hinges[i][k] + c]);
+      if (turn.slope >= 0)
+        add(i, turn.of_slope, to.B[dofs[t].slopes[i]]);
+    }
+    for (unsigned int p = 0; p < dofs[t].n; ++p)
+      to.CB[p] = elasticities[t].stress(to.B[p]);
+  }
+
+  void
+  ShellBody::add_membrane_geometry(const unsigned int t,
+                                   const bool         convex,
+                                   TriangleTangent   &to) const
+  {
+    const ShellTriangle           &triangle = parts.mesh.triangles()[t];
+    const MembraneStrain<double>  &membrane = triangles[t].membrane;
+    const ShellStrain             &T        = triangles[t].driven;
+    const double                   volume   = triangle.volume();
+    const MembraneGeometry<double> geometry
+        = membrane.geometry({ { volume * T[0], volume * T[1], volume * T[2] } }, convex);
+    std::array<double, 9> L;
+    for (unsigned int p = 0; p < 9; ++p)
+      L[p] = geometry.of(to.changes[p]);
+    for (unsigned int p = 0; p < 9; ++p)
+      for (unsigned int q = 0; q <= p; ++q)
+      {
+        const double spin_p = to.changes[p].spin, spin_q = to.changes[q].spin;
+        const auto  &g = triangle.gradients[p / 3], &h = triangle.gradients[q / 3];
+        const double out = g[0] * (geometry.S[0] * h[0] + geometry.S[2] * h[1])
+                           + g[1] * (geometry.S[2] * h[0] + geometry.S[1] * h[1]);
+        to.entries[lower(p, q)] += geometry.of_spin * spin_p * spin_q
+                                   + geometry.of_product * (spin_p * L[q] + spin_q * L[p])
+                                   + geometry.of_square * L[p] * L[q]
+                                   + membrane.normal()[p % 3] * membrane.normal()[q % 3] * out;
+      }
+  }
+
+  void
+  ShellBody::add_hinge_geometry(const unsigned int t,
+                                const bool         convex,
+                                const Vector      &positions,
+                                TriangleTangent   &to) const
+  {
+    for (int edge = 0; edge < 3; ++edge)
+    {
+      const int hinge = strains.turns(t)[edge].hinge;
+      if (hinge < 0 || strains.get_hinges()[hinge].owner != t)
+        continue;
+      const double moment = hinges[hinge].moment;
+      const auto  &at     = dofs[t].hinges[edge];
+      for (HingeProduct<double> &of : strains.hinge_angle(hinge, positions).hessian())
+      {
+        const double positive = convex ? positive_part(moment, of) : 0.;
+        const double factor   = moment * of.factor;
+        for (unsigned int p = 0; p < 12; ++p)
+          for (unsigned int q = 0; q < 12; ++q)
+          {
+            const unsigned int row = at[p / 3] + p % 3, column = at[q / 3] + q % 3;
+            if (row < column)
+              continue;
+            const double a_p = of.a[p / 3][p % 3], a_q = of.a[q / 3][q % 3];
+            const double b_p = of.b[p / 3][p % 3], b_q = of.b[q / 3][q % 3];
+            to.entries[lower(row, column)]
+                += convex ? positive * b_p * b_q : factor * (a_p * b_q + b_p * a_q);
+          }
+      }
+    }
+  }
+
+  void
+  ShellBody::find_tangent(const unsigned int t,
+                          const Tangent      kind,
+                          const Vector      &positions,
+                          TriangleTangent   &to) const
+  {
+    const bool   convex = kind == Tangent::convex;
+    const double factor = (1. + damping) * parts.mesh.triangles()[t].volume();
+    find_strain_slopes(t, to);
+    for (unsigned int p = 0; p < dofs[t].n; ++p)
+      for (unsigned int q = 0; q <= p; ++q)
+        to.entries[lower(p, q)] = factor * contract(to.CB[p], to.B[q]);
+    add_membrane_geometry(t, convex, to);
+    add_hinge_geometry(t, convex, positions, to);
+  }
+
+  void
+  ShellBody::add_columns(const unsigned int     t,
+                         const TriangleTangent &of,
+                         std::vector<double>   &columns) const
+  {
+    const std::size_t n      = parts.free_dofs.local_list().size();
+    const double      volume = parts.mesh.triangles()[t].volume();
+    parts.targets.for_each_weight(
+        t,
+        [&](const unsigned int weight, const unsigned int i, const double share)
+        {
+          const ShellStrain E      = example_strain(t, i);
+          double           *column = columns.data() + n * parts.examples.strained_index(weight);
+          for (unsigned int p = 0; p < dofs[t].n; ++p)
+            if (const int row = parts.free_dofs.free_index(dofs[t].dofs[p]); row != FreeDofs::held)
+              column[row] += share * volume * contract(of.CB[p], E);
+        });
+  }
+
+  void
+  ShellBody::assemble_tangent(const Tangent              kind,
+                              const Vector              &positions,
+                              const std::vector<double> &weights,
+                              std::vector<double>       &matrix_values,
+                              std::vector<double>       &columns,
+                              OuterProducts * /*products*/)
+  {
+    constexpr std::size_t at_once = 256;
+    find_strains(positions, RotationUse::keep);
+    find_stresses(weights);
+    columns.clear();
+    if (parts.weights.n_unknown() > 0)
+      columns.assign(parts.free_dofs.local_list().size() * parts.examples.n_strained_weights(), 0.);
+    std::vector<TriangleTangent> tangents(std::min(at_once, triangles.size()));
+    for (std::size_t first = 0; first < triangles.size(); first += at_once)
+    {
+      const std::size_t n = std::min(at_once, triangles.size() - first);
+      for_each_part(parts.n_threads, n, parts.n_threads,
+                    [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
+                    {
+                      for (std::size_t i = begin; i < end; ++i)
+                        find_tangent(first + i, kind, positions, tangents[i]);
+                    });
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        const TriangleDofs &of = dofs[first + i];
+        for (unsigned int entry = 0; entry < of.n * (of.n + 1) / 2; ++entry)
+          if (of.positions[entry] >= 0)
+            matrix_values[of.positions[entry]] += tangents[i].entries[entry];
+        if (!columns.empty())
+          add_columns(first + i, tangents[i], columns);
+      }
+    }
+  }
+
+  void
+  ShellBody::add_response(const Tangent              kind,
+                          const Vector              &displacement,
+                          const Vector              &positions,
+                          const std::vector<double> &weights,
+                          ElasticEvaluation         &result)
+  {
+    find_strains(positions, RotationUse::keep);
+    find_stresses(weights);
+    Vector              gradient(positions.size());
+    std::vector<double> by_weights(result.weight_gradient.size(), 0.);
+    TriangleTangent     tangent;
+    for (unsigned int t = 0; t < triangles.size(); ++t)
+    {
+      if (!dofs[t].is_beside_held)
+        continue;
+      find_tangent(t, kind, positions, tangent);
+      ShellStrain stress{};
+      for (unsigned int p = 0; p < dofs[t].n; ++p)
+      {
+        const double moved = displacement[dofs[t].dofs[p]];
+        for (int k = 0; k < 6; ++k)
+          stress[k] += moved * tangent.CB[p][k];
+        for (unsigned int q = 0; q < dofs[t].n; ++q)
+          gradient[dofs[t].dofs[q]]
+              += tangent.entries[lower(std::max(p, q), std::min(p, q))] * moved;
+      }
+      if (!by_weights.empty())
+        add_weight_products(t, stress, -1., by_weights);
+    }
+    const Exchange &exchange = parts.fe_space.exchange();
+    exchange.assemble(gradient.begin(), 3);
+    exchange.sum(by_weights);
+    result.gradient += gradient;
+    for (std::size_t i = 0; i < by_weights.size(); ++i)
+      result.weight_gradient[i] += by_weights[i];
+  }
+} // namespace Exemplar
