@@ -109,24 +109,6 @@ namespace Exemplar::Testing
       }
     }
 
-    TEST(HingeAngle, HasAHessianOfWhichThePositivePartIsAtLeastIt)
-    {
-      const HingePlaces x = random_hinge(5);
-      for (const Long moment : { 2., -3. })
-        for (unsigned int seed = 0; seed < 50; ++seed)
-        {
-          const HingeForm<Long> v = random_vectors<4>(100 + seed);
-          for (HingeProduct<Long> of : angle_of(x).hessian())
-          {
-            const Long whole = 2. * moment * of.factor * product(of.a, v) * product(of.b, v);
-            EXPECT_NEAR(product(of.a, of.b), 0., 1e-17);
-            const Long weight = positive_part(moment, of);
-            const Long part   = weight * product(of.b, v) * product(of.b, v);
-            EXPECT_GE(part, std::max(Long(0.), whole - Long(1e-15)));
-          }
-        }
-    }
-
     using Columns = std::array<LongVector, 2>;
 
     const Symmetric2<Long> N = { { 1.3, -0.4, 0.7 } };
