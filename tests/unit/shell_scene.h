@@ -57,8 +57,14 @@ namespace Exemplar::Testing
       parameters.weights        = WeightRule::free;
       parameters.weight_penalty = "0.001";
       weights.emplace(parameters, examples, 1., TimeAxis::of_increments(TimeParameters()));
+      set_threads(1);
+    }
+
+    void
+    set_threads(const unsigned int n)
+    {
       body = std::make_unique<ShellBody>(
-          ShellParts{ mesh, fe_space, material, examples, targets, *weights, free_dofs });
+          ShellParts{ mesh, fe_space, material, examples, targets, *weights, free_dofs, n });
       pattern = body->make_pattern({}, false);
       body->attach(pattern);
     }

@@ -105,6 +105,45 @@ namespace Exemplar::Testing
       EXPECT_NEAR(result.min_det_F, 1., 1e-12);
     }
 
+    TEST(ShellBody, KnowsTheForcesThatAreRoundingAlone)
+    {
+      for (const double t : { 0.001, 0.1 })
+        for (const double distance : { 0., 100. })
+        {
+          ShellScene            scene(rectangle(
+                         20, 20,
+                         [](const double x, const double y) {
+                return Place{ { x, y, 0.1 * x * x } };
+              },
+                         t));
+          const Matrix3<double> Q = closest_rotation(
+              Matrix3<double>{ { { 0.1, 2., -0.4 }, { -1., 0.3, 0.2 }, { 0.5, 0.1, 0.7 } } });
+          const Vector x     = disturbed(scene.body->get_strains(), 0.,
+                                         [&](const Place &X) {
+                                       return combine(1., Q * X, distance, Place{ { 1., 1., 1. } });
+                                     });
+          const double found = scene.evaluate(x, {}).gradient.linfty_norm();
+          EXPECT_LT(found, scene.body->rounding_force(x.linfty_norm()));
+          EXPECT_GT(found, 0.01 * scene.body->rounding_force(x.linfty_norm()));
+        }
+    }
+
+    TEST(ShellBody, HasTheSameBitsForAnyNumberOfThreads)
+    {
+      ShellScene   scene = patch_scene();
+      const Vector x     = patch_state(scene);
+      const auto   one   = scene.evaluate(x, some_weights);
+      const auto   A     = scene.assemble(Tangent::exact, x, some_weights);
+      scene.set_threads(3);
+      const auto three = scene.evaluate(x, some_weights);
+      EXPECT_EQ(three.energy, one.energy);
+      EXPECT_EQ(three.gradient, one.gradient);
+      EXPECT_EQ(three.weight_gradient, one.weight_gradient);
+      const auto B = scene.assemble(Tangent::exact, x, some_weights);
+      EXPECT_EQ(B.values, A.values);
+      EXPECT_EQ(B.columns, A.columns);
+    }
+
     TEST(ShellBody, HasForcesWithoutResultantWhereItIsDeformed)
     {
       ShellScene   scene = patch_scene();
