@@ -49,7 +49,7 @@ namespace Exemplar
     Number          foot; ///< s: 0 at the begin of the edge, 1 at its end
   };
 
-  /// A product factor (a b^T + b a^T) of two forms, which are orthogonal.
+  /// A product factor (a b^T + b a^T) of two forms.
   template <typename Number>
   struct HingeProduct
   {
@@ -145,26 +145,6 @@ namespace Exemplar
     Number            angle;
   };
 
-  /// The sum of products a_k b_k.
-  template <typename Number>
-  Number
-  product(const HingeForm<Number> &a, const HingeForm<Number> &b)
-  {
-    return dot(a[0], b[0]) + dot(a[1], b[1]) + dot(a[2], b[2]) + dot(a[3], b[3]);
-  }
-
-  /// The positive part of m factor (a b^T + b a^T), which is weight u u^T; overwrites b by u.
-  template <typename Number>
-  Number
-  positive_part(const Number &m, HingeProduct<Number> &of)
-  {
-    const Number size_a = sqrt(product(of.a, of.a)), size_b = sqrt(product(of.b, of.b));
-    const Number factor = m * of.factor;
-    const Number ratio  = size_b / size_a * (factor < Number(0.) ? Number(-1.) : Number(1.));
-    for (int i = 0; i < 4; ++i)
-      of.b[i] = combine(Number(1.), of.b[i], ratio, of.a[i]);
-    return Number(0.5) * abs(factor) * size_a / size_b;
-  }
 } // namespace Exemplar
 
 #endif

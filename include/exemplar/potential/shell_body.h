@@ -240,10 +240,7 @@ namespace Exemplar
     add_membrane_geometry(unsigned int triangle, bool convex, TriangleTangent &to) const;
 
     void
-    add_hinge_geometry(unsigned int     triangle,
-                       bool             convex,
-                       const Vector    &positions,
-                       TriangleTangent &to) const;
+    add_hinge_geometry(unsigned int triangle, const Vector &positions, TriangleTangent &to) const;
 
     void
     add_columns(unsigned int           triangle,

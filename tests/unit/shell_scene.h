@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef exemplar_tests_shell_scene_h
+#define exemplar_tests_shell_scene_h
+
+#include <exemplar/mesh/mesh.h>
+#include <exemplar/potential/shell_body.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shells.h"
+
+namespace Exemplar::Testing
+{
+  /// A shell with the strains of some states as examples beside its rest shape, of which the weights are to be
+  /// found or, if there are none, nothing is.
+  class ShellScene
+  {
+  public:
+    static constexpr double E = 2., nu = 0.3, eta = 0.9;
+
+    explicit ShellScene(ShellMesh                        of_shell,
+                        const std::vector<Vector>       &poses     = {},
+                        const std::vector<bool>         &held      = {},
+                        const std::vector<unsigned int> &more_held = {},
+                        const double                     poissons  = nu)
+        : mesh(std::move(of_shell)), solid(box()), fe_space(solid),
+          material(make_material(mesh, poissons)),
+          examples(names(poses.size()), poses.empty() ? 0 : 1, {}, volumes(), Exchange::serial()),
+          targets({ 6, shell_strain_order() }, examples, volumes()),
+          free_dofs(3 * mesh.n_nodes(), held_dofs(held, more_held), Exchange::serial())
+    {
+      examples.set_importance(eta);
+      ShellStrains strains(mesh);
+      for (unsigned int i = 0; i < poses.size(); ++i)
+      {
+        const std::vector<ShellStrain> of_pose = strains.strains(poses[i]);
+        for (unsigned int t = 0; t < of_pose.size(); ++t)
+          for (unsigned int k = 0; k < 6; ++k)
+            targets.number(t, i + 1, k) = eta * of_pose[t][k];
+      }
+      const auto &solid_elasticity = material.elasticity(0);
+      const auto  C    = ShellElasticity::of_solid(solid_elasticity.lambda, solid_elasticity.mu);
+      const auto  dual = [C](unsigned int, const double *a, double *T)
+      {
+        const ShellStrain stress = C.stress({ { a[0], a[1], a[2], a[3], a[4], a[5] } });
+        std::copy(stress.begin(), stress.end(), T);
+      };
+      if (!poses.empty())
+      {
+        examples.measure(targets);
+        examples.compute({ { targets, { dual }, {} } });
+      }
+      ExampleParameters parameters;
+      parameters.weights        = WeightRule::free;
+      parameters.weight_penalty = "0.001";
+      weights.emplace(parameters, examples, 1., TimeAxis::of_increments(TimeParameters()));
+      set_threads(1);
+    }
+
+    void
+    set_threads(const unsigned int n)
+    {
+      body = std::make_unique<ShellBody>(
+          ShellParts{ mesh, fe_space, material, examples, targets, *weights, free_dofs, n });
+      pattern = body->make_pattern({}, false);
+      body->attach(pattern);
+    }
+
+    ElasticEvaluation
+    evaluate(const Vector &x, const std::vector<double> &w)
+    {
+      ElasticEvaluation result;
+      body->evaluate(x, w, result);
+      return result;
+    }
+
+    struct Assembled
+    {
+      std::vector<double> values, columns;
+    };
+
+    Assembled
+    assemble(const Tangent kind, const Vector &x, const std::vector<double> &w)
+    {
+      Assembled result;
+      result.values.assign(pattern.n_values(), 0.);
+      body->assemble_tangent(kind, x, w, result.values, result.columns);
+      return result;
+    }
+
+    dealii::FullMatrix<double>
+    full(const Assembled &of) const
+    {
+      dealii::FullMatrix<double> A(pattern.n(), pattern.n());
+      for (unsigned int j = 0; j < pattern.n(); ++j)
+        for (int entry = pattern.column_start[j]; entry < pattern.column_start[j + 1]; ++entry)
+          A(j, pattern.row[entry]) = A(pattern.row[entry], j) = of.values[entry];
+      return A;
+    }
+
+    /// Solve K u = f for fields by degree of freedom, zero where held.
+    Vector
+    solve(const std::vector<double> &values, const Vector &f) const
+    {
+      const auto solver = make_cholesky_operator();
+      solver->reinit(pattern);
+      solver->values() = values;
+      solver->factorize(f);
+      std::vector<double> column;
+      free_dofs.gather(f, column);
+      solver->solve(column);
+      Vector u(f.size());
+      free_dofs.add(1., column, u);
+      return u;
+    }
+
+    ShellMesh                     mesh;
+    Mesh                          solid; // of which the shell uses no more than how processes talk
+    FESpace                       fe_space;
+    Material                      material;
+    ExampleTargets                examples;
+    TargetBlock                   targets;
+    FreeDofs                      free_dofs;
+    std::optional<ExampleWeights> weights;
+    std::unique_ptr<ShellBody>    body;
+    SymmetricPattern              pattern;
+
+  private:
+    static MeshParameters
+    box()
+    {
+      MeshParameters parameters;
+      parameters.generator = MeshGenerator::box;
+      parameters.box_cells = { { 1, 1, 1 } };
+      return parameters;
+    }
+
+    static Material
+    make_material(const ShellMesh &mesh, const double poissons)
+    {
+      MaterialParameters parameters;
+      parameters.everywhere.youngs_modulus = E;
+      parameters.everywhere.poissons_ratio = poissons;
+      return { parameters, std::vector<unsigned int>(mesh.triangles().size(), 0) };
+    }
+
+    static std::vector<std::string>
+    names(const std::size_t n_poses)
+    {
+      std::vector<std::string> result;
+      for (std::size_t i = 0; n_poses > 0 && i <= n_poses; ++i)
+        result.push_back("example " + std::to_string(i));
+      return result;
+    }
+
+    std::vector<double>
+    volumes() const
+    {
+      std::vector<double> result;
+      for (const ShellTriangle &triangle : mesh.triangles())
+        result.push_back(triangle.volume());
+      return result;
+    }
+
+    std::vector<unsigned int>
+    held_dofs(const std::vector<bool> &held, std::vector<unsigned int> all) const
+    {
+      for (unsigned int edge = 0; edge < mesh.edges().size(); ++edge)
+        for (unsigned int c = held.empty() || !held[edge] ? 1 : 0; c < 3; ++c)
+          all.push_back(3 * mesh.slope_node(edge) + c);
+      std::sort(all.begin(), all.end());
+      return all;
+    }
+  };
+} // namespace Exemplar::Testing
+
+#endif
