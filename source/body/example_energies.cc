@@ -125,7 +125,8 @@ namespace Exemplar
     };
     TargetEnergy energy{ strains, { stress }, {} };
     if (material.importance_varies() || bending_importance != 1.)
-      energy.excess.dual = [this, &material, stress](const unsigned int cell, const double *a, double *T)
+      energy.excess.dual
+          = [this, &material, stress](const unsigned int cell, const double *a, double *T)
       {
         stress(cell, a, T);
         const double eta = importance() * material.importance(cell);

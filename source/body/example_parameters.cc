@@ -71,7 +71,8 @@ namespace Exemplar
              "Whether the rest pose is example 0. Without it a single example is a "
              "permanent pre-strain. Means nothing with additive weights.");
     keys.add("Bending importance", bending_importance,
-             "Of a shell: factor of Importance for curvatures or angles; 1: bends and stretches follow alike; their product "
+             "Of a shell: factor of Importance for curvatures or angles; 1: bends and stretches "
+             "follow alike; their product "
              "is at most 1.",
              Bounds{ 0. });
     keys.add("Importance", importance,

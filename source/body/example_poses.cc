@@ -38,7 +38,8 @@ namespace Exemplar
     {
       if (!parameters.in_use())
         return {};
-      if (fe_space.is_shell() && parameters.weights_per_region && parameters.region_blend_length > 0.)
+      if (fe_space.is_shell() && parameters.weights_per_region
+          && parameters.region_blend_length > 0.)
         throw UserError("Examples/Region blend length is not for shells. Set it to 0.");
       const unsigned int n_points = points_per_cell(fe_space.element());
       if (!painted.empty())
@@ -101,9 +102,8 @@ namespace Exemplar
               const std::vector<dealii::Point<3>> &places,
               const FESpace                       &fe_space)
     {
-      const std::vector<dealii::Point<3>> nodes
-          = fe_space.complete(places, "Examples, " + name);
-      ExamplePose pose{ name, Vector(fe_space.n_dofs()) };
+      const std::vector<dealii::Point<3>> nodes = fe_space.complete(places, "Examples, " + name);
+      ExamplePose                         pose{ name, Vector(fe_space.n_dofs()) };
       for (unsigned int node = 0; node < nodes.size(); ++node)
         for (unsigned int c = 0; c < 3; ++c)
           pose.positions[3 * node + c] = nodes[node][c];

@@ -68,7 +68,9 @@ namespace Exemplar
     }
   } // namespace
 
-  FESpace::FESpace(const Mesh &mesh, std::vector<ShellSection> sections_of_cells, const bool has_slopes)
+  FESpace::FESpace(const Mesh               &mesh,
+                   std::vector<ShellSection> sections_of_cells,
+                   const bool                has_slopes)
       : mesh(mesh), kind(Element::P1), nodes_of_element(mesh, kind, has_slopes),
         fe(dealii::FE_SimplexP<3>(1), 3), mapping(dealii::FE_SimplexP<3>(1)),
         sections(std::move(sections_of_cells)),
@@ -85,7 +87,8 @@ namespace Exemplar
   {
     rest.reinit(n_dofs());
     std::vector<dealii::Point<3>> places = mesh.get_nodes();
-    for (unsigned int edge = 0; nodes_of_element.has_slopes() && edge < shell_mesh->edges().size(); ++edge)
+    for (unsigned int edge = 0; nodes_of_element.has_slopes() && edge < shell_mesh->edges().size();
+         ++edge)
     {
       const Vector3<double> tip = shell_mesh->tip(edge);
       places.emplace_back(tip[0], tip[1], tip[2]);

@@ -19,8 +19,10 @@ namespace Exemplar
              "The components that are held; fewer than x, y, z make a roller or a plane of "
              "symmetry.");
     keys.add("Slopes", slopes,
-             "Of a shell: held: the normals at edges whose two nodes are held turn with the handle, as in a clamp or a "
-             "plane of symmetry; free: the shell turns about these edges as about a hinge; auto: held where Components "
+             "Of a shell: held: the normals at edges whose two nodes are held turn with the "
+             "handle, as in a clamp or a "
+             "plane of symmetry; free: the shell turns about these edges as about a hinge; auto: "
+             "held where Components "
              "are x, y, z, else free.");
     keys.add_file("Follow pose", follow_pose,
                   "A .msh file with the nodes and tetrahedra of the mesh, or a surface as in "
@@ -102,7 +104,8 @@ namespace Exemplar
                       + " is given, but no " + key
                       + "/Follow cache. Give the cache that is followed, or remove it.");
     if (slopes != "auto" && slopes != "held" && slopes != "free")
-      throw UserError(key + "/Slopes = '" + slopes + "' is not allowed. Allowed: auto, held, free.");
+      throw UserError(key + "/Slopes = '" + slopes
+                      + "' is not allowed. Allowed: auto, held, free.");
     check_time(key);
     if (!follow_pose.empty() && has_motion)
       throw UserError(key + "/Follow pose and " + key + "/Motion = '" + motion

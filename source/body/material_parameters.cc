@@ -81,7 +81,8 @@ namespace Exemplar
       keys.add("Density", constants.density,
                "rho [kg/m^3], greater than 0. Used by dynamics and gravity.", positive);
       keys.add("Thickness", constants.thickness,
-               "t [m] of a shell, at least 1e-6 and at most half of the mean length of its edges; 0 where there is "
+               "t [m] of a shell, at least 1e-6 and at most half of the mean length of its edges; "
+               "0 where there is "
                "none.",
                Bounds{ 0. });
       keys.add("Importance factor", constants.importance,

@@ -101,9 +101,12 @@ namespace Exemplar
         "corotational strain with consistent forces and, where there are examples, "
         "Examples/Energy = blended; examples act on the corotational strain.");
     keys.add("Shell", shell, shells,
-             "What a shell (Mesh/Kind) resists and its examples ask for: plate: three membrane strains and three "
-             "curvatures of each triangle, with the slope of the normal at each edge as an unknown; it converges. hinges: "
-             "the lengths of edges and the angles between triangles, which depend on the mesh (doc/shells.md).");
+             "What a shell (Mesh/Kind) resists and its examples ask for: plate: three membrane "
+             "strains and three "
+             "curvatures of each triangle, with the slope of the normal at each edge as an "
+             "unknown; it converges. hinges: "
+             "the lengths of edges and the angles between triangles, which depend on the mesh "
+             "(doc/shells.md).");
     keys.leave_subsection();
   }
 

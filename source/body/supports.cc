@@ -33,7 +33,9 @@ namespace Exemplar
     }
 
     void
-    move_rigidly(const RigidMotion &motion, dealii::Vector<double> &positions, const unsigned int n_places)
+    move_rigidly(const RigidMotion      &motion,
+                 dealii::Vector<double> &positions,
+                 const unsigned int      n_places)
     {
       std::vector<dealii::Point<3>> nodes = nodes_of(positions);
       nodes.resize(std::min<std::size_t>(nodes.size(), n_places));
@@ -154,17 +156,17 @@ namespace Exemplar
     StaticallyDeterminateSupport
     support_in(const std::array<unsigned int, 4> &cell, const std::vector<dealii::Point<3>> &x)
     {
-    const auto  a = cell[0], b = cell[1], c = cell[2];
+      const auto a = cell[0], b = cell[1], c = cell[2];
 
-    // b may move along the dominant direction of ab only, c within the plane abc
-    const unsigned int along  = max_component(x[b] - x[a]);
-    const unsigned int normal = max_component(dealii::cross_product_3d(x[b] - x[a], x[c] - x[a]));
-    std::vector<unsigned int> held = { 3 * a, 3 * a + 1, 3 * a + 2, 3 * c + normal };
-    for (unsigned int d = 0; d < 3; ++d)
-      if (d != along)
-        held.push_back(3 * b + d);
-    std::sort(held.begin(), held.end());
-    return { cell, { { x[a], x[b], x[c], x[cell[3]] } }, { { a, b, c } }, held };
+      // b may move along the dominant direction of ab only, c within the plane abc
+      const unsigned int along  = max_component(x[b] - x[a]);
+      const unsigned int normal = max_component(dealii::cross_product_3d(x[b] - x[a], x[c] - x[a]));
+      std::vector<unsigned int> held = { 3 * a, 3 * a + 1, 3 * a + 2, 3 * c + normal };
+      for (unsigned int d = 0; d < 3; ++d)
+        if (d != along)
+          held.push_back(3 * b + d);
+      std::sort(held.begin(), held.end());
+      return { cell, { { x[a], x[b], x[c], x[cell[3]] } }, { { a, b, c } }, held };
     }
   } // namespace
 

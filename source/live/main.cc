@@ -266,9 +266,10 @@ Exit status:
       const SceneFile          given(arguments.shown.front(), overrides);
       if (given.get_parameters().mesh.kind == MeshKind::shell)
         throw UserError(arguments.shown.front()
-                        + ": Mesh/Kind = shell is not for the live page yet. Run the scene, and look at its frames by "
+                        + ": Mesh/Kind = shell is not for the live page yet. Run the scene, and "
+                          "look at its frames by "
                           "exemplar export.");
-      const unsigned int       axis
+      const unsigned int axis
           = axis_of_up(arguments.up, given.get_parameters().mesh.surface_file());
       if (arguments.floor)
         overrides = with_floor(overrides, given, *arguments.floor, axis);

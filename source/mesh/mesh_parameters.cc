@@ -30,9 +30,10 @@ namespace Exemplar
   MeshParameters::declare(KeyTable &keys)
   {
     keys.enter_subsection("Mesh");
-    keys.add("Kind", kind, kind_names,
-             "solid: tetrahedra, or what fills a surface with them; shell: the triangles of File, a "
-             "surface (.obj, .ply, .stl) or a .msh, which have Material/Thickness.");
+    keys.add(
+        "Kind", kind, kind_names,
+        "solid: tetrahedra, or what fills a surface with them; shell: the triangles of File, a "
+        "surface (.obj, .ply, .stl) or a .msh, which have Material/Thickness.");
     keys.add_file(
         "File", file,
         "The tetrahedral rest mesh: .msh (gmsh 2.2 or 4.1, ASCII or binary), .mesh (Medit), .vtk, "

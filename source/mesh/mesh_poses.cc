@@ -104,7 +104,8 @@ namespace Exemplar
       throw UserError(key + ": there is no pose '" + pose
                       + "' among the inputs. Hand it in by this name, or read it from a file.");
     const std::size_t n = found->second.size();
-    const std::size_t n_edges = is_shell() ? edges_of(arrays.triangles).size() : edges_of(arrays.cells).size();
+    const std::size_t n_edges
+        = is_shell() ? edges_of(arrays.triangles).size() : edges_of(arrays.cells).size();
     if (n != n_nodes() && n != n_nodes() + n_edges)
       throw UserError(
           fmt::format("{}: the pose '{}' has {} nodes, the mesh {}. Hand in a place for each node.",

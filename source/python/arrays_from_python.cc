@@ -322,18 +322,21 @@ namespace Exemplar::Python
       const auto nodes = rows.unchecked<2>();
       const auto m     = static_cast<std::size_t>(nodes.shape(0));
       if (!material_ids.empty() && material_ids.size() != m)
-        throw UserError(fmt::format("The mesh has {} triangles, but {} material ids. Give one for each triangle, or none.",
-                                    m, material_ids.size()));
+        throw UserError(fmt::format(
+            "The mesh has {} triangles, but {} material ids. Give one for each triangle, or none.",
+            m, material_ids.size()));
       for (std::size_t t = 0; t < m; ++t)
       {
         const int  tag = material_ids.empty() ? 0 : static_cast<int>(material_ids[t]);
         MshElement triangle{ t, MshElementType::triangle, tag, tag, {} };
         for (py::ssize_t v = 0; v < 3; ++v)
         {
-          triangle.nodes.push_back(index_of(nodes(static_cast<py::ssize_t>(t), v), "mesh: triangles"));
+          triangle.nodes.push_back(
+              index_of(nodes(static_cast<py::ssize_t>(t), v), "mesh: triangles"));
           if (triangle.nodes.back() >= msh.nodes.size())
-            throw UserError(fmt::format("mesh: triangles[{}] has node {}, but there are {} nodes, counted from 0.", t,
-                                        triangle.nodes.back(), msh.nodes.size()));
+            throw UserError(fmt::format(
+                "mesh: triangles[{}] has node {}, but there are {} nodes, counted from 0.", t,
+                triangle.nodes.back(), msh.nodes.size()));
         }
         msh.elements.push_back(std::move(triangle));
       }
@@ -346,7 +349,8 @@ namespace Exemplar::Python
   {
     const py::tuple parts = parts_of(mesh);
     if (kind == MeshKind::shell)
-      return shell_of(parts, parts.size() == 3 ? material_ids_of(parts[2]) : std::vector<unsigned int>());
+      return shell_of(parts,
+                      parts.size() == 3 ? material_ids_of(parts[2]) : std::vector<unsigned int>());
     refuse_exchanged_parts(parts);
     const Cells               cells = cells_of(parts[1]);
     std::vector<unsigned int> material_ids;

@@ -92,6 +92,7 @@ namespace Exemplar::Python
   StateArrays::cells() const
   {
     const Mesh &mesh = problem->body.mesh;
-    return read_only_rows(mesh.corners(0).data(), mesh.n_cells(), mesh.corners(0).size(), keeper(problem));
+    return read_only_rows(mesh.corners(0).data(), mesh.n_cells(), mesh.corners(0).size(),
+                          keeper(problem));
   }
 } // namespace Exemplar::Python

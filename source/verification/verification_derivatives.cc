@@ -43,8 +43,8 @@ namespace Exemplar::Verification
         problem.cells().get_field().update_rotations(x);
         matrix.resize(problem.potential.get_tangent().get_pattern().n_values());
         problem.cells().assemble_tangent(rotations == Rotations::followed ? Tangent::exact
-                                                                        : Tangent::convex,
-                                       x, w, matrix, columns);
+                                                                          : Tangent::convex,
+                                         x, w, matrix, columns);
       }
 
       /// Greatest error of the gradient, relative to 1 + its greatest entry.

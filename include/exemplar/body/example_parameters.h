@@ -67,12 +67,12 @@ namespace Exemplar
     std::vector<std::string> poses;
     double                   attach = 30.; ///< Examples/Attach, of poses that are surfaces
     std::string              pose_functions;
-    bool                     include_rest_pose = true;
-    double                   importance        = 0.8; ///< eta
-    double                   bending_importance = 1.; ///< of a shell: factor of eta for curvatures
-    std::string              weight_penalty    = "auto";
-    ExampleEnergy            energy            = ExampleEnergy::mixed;
-    ActsOn                   acts_on           = ActsOn::all;
+    bool                     include_rest_pose  = true;
+    double                   importance         = 0.8; ///< eta
+    double                   bending_importance = 1.;  ///< of a shell: factor of eta for curvatures
+    std::string              weight_penalty     = "auto";
+    ExampleEnergy            energy             = ExampleEnergy::mixed;
+    ActsOn                   acts_on            = ActsOn::all;
     std::string              modulus;       ///< Example modulus [Pa]; empty: the material's
     std::string              poisson_ratio; ///< Example Poisson ratio; empty: the material's
     WeightRule               weights = WeightRule::simplex;

@@ -236,16 +236,16 @@ namespace Exemplar
     void
     set_rest();
 
-    const Mesh                  &mesh;
-    const Element                kind;
-    const NodeNumbering          nodes_of_element;
-    const dealii::FESystem<3>    fe;
-    const dealii::MappingFE<3>   mapping;
+    const Mesh                      &mesh;
+    const Element                    kind;
+    const NodeNumbering              nodes_of_element;
+    const dealii::FESystem<3>        fe;
+    const dealii::MappingFE<3>       mapping;
     std::vector<ShellSection>        sections;   ///< of a shell
     std::unique_ptr<const ShellMesh> shell_mesh; ///< null: none
-    std::vector<Vector3<double>> shape_gradients;
-    std::vector<double>          volumes;
-    dealii::Vector<double>       rest;
+    std::vector<Vector3<double>>     shape_gradients;
+    std::vector<double>              volumes;
+    dealii::Vector<double>           rest;
   };
 } // namespace Exemplar
 

@@ -28,7 +28,8 @@ namespace Exemplar
     HoldingTime               time  = {};
     bool                      holds = true;
 
-    unsigned int first_slope = std::numeric_limits<unsigned int>::max(); ///< NodeNumbering::n_places()
+    unsigned int first_slope
+        = std::numeric_limits<unsigned int>::max(); ///< NodeNumbering::n_places()
 
     /// The components of a node that are held: of slopes all.
     const std::vector<unsigned int> &

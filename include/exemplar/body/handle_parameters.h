@@ -50,7 +50,7 @@ namespace Exemplar
     std::string motion     = "0; 0; 0";
     std::string components = "x, y, z";
     std::string slopes     = "auto"; ///< held or free; auto: held where all components are
-    std::string follow_pose; ///< a file; empty: `motion` says where the nodes go
+    std::string follow_pose;         ///< a file; empty: `motion` says where the nodes go
     std::string progress = "t";
     std::string follow_cache; ///< a file of places of the surface's vertices in time; empty: none
     double      frames_per_second = 24.;

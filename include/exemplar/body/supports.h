@@ -28,9 +28,9 @@ namespace Exemplar
   /// the whole body.
   struct StaticallyDeterminateSupport
   {
-    std::array<unsigned int, 4>     corners;   ///< nodes of the cell; of a triangle the first one twice
-    std::array<dealii::Point<3>, 4> rest;      ///< their positions at rest [m]
-    std::array<unsigned int, 3>     nodes;     ///< the nodes with held degrees of freedom
+    std::array<unsigned int, 4> corners;   ///< nodes of the cell; of a triangle the first one twice
+    std::array<dealii::Point<3>, 4> rest;  ///< their positions at rest [m]
+    std::array<unsigned int, 3>     nodes; ///< the nodes with held degrees of freedom
     std::vector<unsigned int>       held_dofs; ///< ascending
 
     template <typename Archive>
@@ -59,7 +59,7 @@ namespace Exemplar
                   double                              angle,
                   dealii::Vector<double>             &positions,
                   const Exchange                     &exchange,
- unsigned int n_places = all_places);
+                  unsigned int                        n_places = all_places);
 
   /// Subtract the best-fitting infinitesimal rigid motion (translation and rotation, least squares
   /// over the nodes) from a displacement [m] of `positions`.
@@ -67,7 +67,7 @@ namespace Exemplar
   remove_rigid_motion(const dealii::Vector<double> &positions,
                       dealii::Vector<double>       &displacement,
                       const Exchange               &exchange,
- unsigned int n_places = all_places);
+                      unsigned int                  n_places = all_places);
 
   /// Move `positions` rigidly so that they come nearest to `reference` in the least-squares sense
   /// over the nodes (Kabsch 1976), Eq. (15).
@@ -75,7 +75,7 @@ namespace Exemplar
   align(const dealii::Vector<double> &reference,
         dealii::Vector<double>       &positions,
         const Exchange               &exchange,
- unsigned int n_places = all_places);
+        unsigned int                  n_places = all_places);
 
   /// align() by those nodes alone that have all three components among `dofs` on some process, or
   /// by all nodes if these are collinear or fewer than three.

@@ -23,7 +23,7 @@ namespace Exemplar
   {
     std::vector<double> strain_energy_density; ///< 1/2 e:C:e of the elastic strain [J/m^3]
     std::vector<double> det_F;                 ///< of a shell the ratio of the area to that at rest
-    std::vector<double> von_mises_stress; ///< of the corotated stress C:(e - eta E(w)) [Pa]
+    std::vector<double> von_mises_stress;      ///< of the corotated stress C:(e - eta E(w)) [Pa]
     std::vector<double> plastic_strain
         = {}; ///< the equivalent one [-]; empty unless cells may yield
   };

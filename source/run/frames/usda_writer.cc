@@ -334,7 +334,8 @@ namespace Exemplar
           : prim(prim_of(subject.carried)), topology(topology_of(*subject.surface)),
             groups(groups_of(*subject.surface)),
             materials(materials_of(*subject.surface, subject.folder)),
-            cells(subject.carried.empty() && !subject.mesh.is_shell() ? topology_of(subject.mesh) : ""),
+            cells(subject.carried.empty() && !subject.mesh.is_shell() ? topology_of(subject.mesh)
+                                                                      : ""),
             faces(subject.surface->faces), n_nodes(subject.mesh.n_nodes()),
             meters_per_unit(subject.mesh.get_scale()), playback(subject.playback),
             has_velocities(playback.has_velocities && subject.carried != name_of_obstacles)

@@ -18,8 +18,8 @@ namespace Exemplar
     std::string
     piece_of(const FESpace &fe_space)
     {
-      return fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", fe_space.numbering().n_places(),
-                         fe_space.n_cells());
+      return fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                         fe_space.numbering().n_places(), fe_space.n_cells());
     }
 
     std::string
@@ -27,7 +27,8 @@ namespace Exemplar
     {
       constexpr unsigned char vtk_triangle = 5;
       return cells_of_grid(fe_space.n_cells(),
-                           fe_space.is_shell() ? vtk_triangle : traits_of(fe_space.element()).vtk_type,
+                           fe_space.is_shell() ? vtk_triangle
+                                               : traits_of(fe_space.element()).vtk_type,
                            [&](const unsigned int cell) { return fe_space.nodes(cell); });
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/number_text.h>
 #include <exemplar/body/grain_axes.h>
 #include <exemplar/body/patches.h>
-#include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/mesh_edges.h>
 #include <exemplar/run/inputs/body_inputs.h>
@@ -45,7 +45,8 @@ namespace Exemplar
             (region == regions.end() ? parameters.everywhere : region->second).thickness);
         if (thicknesses.back() > thickest * mean)
           throw UserError(fmt::format(
-              "Material/Thickness = {}: is more than half of the edges' mean length, {} m, for which the body is no "
+              "Material/Thickness = {}: is more than half of the edges' mean length, {} m, for "
+              "which the body is no "
               "shell. Take a coarser mesh, or fill the surface with cells by Mesh/Kind = solid.",
               shortest_text(thicknesses.back()), short_text(mean)));
       }
@@ -112,10 +113,9 @@ namespace Exemplar
   BodyInputs
   make_body_inputs(const CompleteScene &scene, Inputs inputs)
   {
-    const bool      needs_inputs = scene.output.space_error != SpaceErrorUse::never;
-    auto            kept         = needs_inputs ? std::make_shared<const Inputs>(inputs) : nullptr;
-    Mesh            mesh(std::move(inputs.mesh), scene.mesh.name(), scene.mesh.scale,
-                         scene.mesh.kind);
+    const bool needs_inputs = scene.output.space_error != SpaceErrorUse::never;
+    auto       kept         = needs_inputs ? std::make_shared<const Inputs>(inputs) : nullptr;
+    Mesh       mesh(std::move(inputs.mesh), scene.mesh.name(), scene.mesh.scale, scene.mesh.kind);
     SurfaceReadings readings = read_off_surface(scene, mesh, inputs);
     BodyFields      fields   = make_fields(scene, mesh, inputs, readings);
     return { std::move(mesh),

@@ -66,7 +66,7 @@ namespace Exemplar
               && inputs.obstacles.count(obstacle.name) == 0)
             inputs.obstacles[obstacle.name] = read_obstacle(obstacle);
         if (inputs.mesh.nodes.empty())
-          inputs.mesh = is_shell()                     ? load_shell(scene.mesh)
+          inputs.mesh = is_shell()                    ? load_shell(scene.mesh)
                         : is_to_be_filled(scene.mesh) ? surfaces.make_mesh()
                                                       : load_mesh(scene.mesh);
         for (const auto &[selection, key] : scene.selections())

@@ -50,7 +50,8 @@ namespace Exemplar
       try
       {
         if (scene.mesh.kind == MeshKind::shell)
-          throw UserError(scene.name + ": Mesh/Kind = shell is not for several processes. Start one.");
+          throw UserError(scene.name
+                          + ": Mesh/Kind = shell is not for several processes. Start one.");
         BodyInputs whole = read_body(scene, announce);
         check_middles(whole, scene.model.element);
         const std::vector<PartOfBody> parts

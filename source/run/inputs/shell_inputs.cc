@@ -56,27 +56,32 @@ namespace Exemplar
   load_shell(const MeshParameters &parameters)
   {
     if (parameters.file.empty())
-      throw UserError("Mesh: no mesh is given. With Mesh/Kind = shell, set Mesh/File to a surface (.obj, .ply or .stl) or "
+      throw UserError("Mesh: no mesh is given. With Mesh/Kind = shell, set Mesh/File to a surface "
+                      "(.obj, .ply or .stl) or "
                       "to a .msh of triangles.");
     return read_triangles(parameters.file);
   }
 
   std::vector<dealii::Point<3>>
-  read_shell_pose(const std::filesystem::path &file, const MshFile &mesh, const std::string &mesh_name)
+  read_shell_pose(const std::filesystem::path &file,
+                  const MshFile               &mesh,
+                  const std::string           &mesh_name)
   {
-    MshFile           pose   = read_triangles(file);
-    const std::string prefix = file.string() + " is no pose of " + mesh_name + ": ",
-                      remedy = " A pose of a shell has the vertices and faces of the shell, in the same order.";
+    MshFile           pose = read_triangles(file);
+    const std::string prefix
+        = file.string() + " is no pose of " + mesh_name + ": ",
+        remedy = " A pose of a shell has the vertices and faces of the shell, in the same order.";
     const auto expected = triangles_of(mesh), found = triangles_of(pose);
     if (pose.nodes.size() != mesh.nodes.size())
-      throw UserError(fmt::format("{}it has {} vertices, the mesh has {}.{}", prefix, pose.nodes.size(),
-                                  mesh.nodes.size(), remedy));
+      throw UserError(fmt::format("{}it has {} vertices, the mesh has {}.{}", prefix,
+                                  pose.nodes.size(), mesh.nodes.size(), remedy));
     if (found.size() != expected.size())
-      throw UserError(fmt::format("{}it has {} triangles, the mesh has {}.{}", prefix, found.size(), expected.size(),
-                                  remedy));
+      throw UserError(fmt::format("{}it has {} triangles, the mesh has {}.{}", prefix, found.size(),
+                                  expected.size(), remedy));
     for (std::size_t t = 0; t < found.size(); ++t)
       if (found[t]->nodes != expected[t]->nodes)
-        throw UserError(fmt::format("{}triangle {} has other vertices than that of the mesh.{}", prefix, t + 1, remedy));
+        throw UserError(fmt::format("{}triangle {} has other vertices than that of the mesh.{}",
+                                    prefix, t + 1, remedy));
     std::vector<dealii::Point<3>> places = std::move(pose.nodes);
     places.insert(places.end(), pose.normal_tips.begin(), pose.normal_tips.end());
     return places;

@@ -158,7 +158,9 @@ namespace Exemplar
         || problem.potential.has_dissipating_terms(shown))
       append(row, "energy_dissipated",
              shown.dissipated
-                 + (some_yield ? problem.body.exchange().sum(problem.cells().get_field().dissipated_energy()) : 0.));
+                 + (some_yield ? problem.body.exchange().sum(
+                        problem.cells().get_field().dissipated_energy())
+                               : 0.));
   }
 
   void

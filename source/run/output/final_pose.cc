@@ -16,9 +16,11 @@ namespace Exemplar
       std::vector<double> volumes(mesh.n_nodes());
       const auto         &nodes = mesh.get_nodes();
       for (unsigned int cell = 0; mesh.is_shell() && cell < mesh.n_cells(); ++cell)
-        for (const unsigned int node : mesh.corners(cell)) // by area; the thickness is not known here
-          volumes[node] += dealii::cross_product_3d(nodes[mesh.corners(cell)[1]] - nodes[mesh.corners(cell)[0]],
-                                                    nodes[mesh.corners(cell)[2]] - nodes[mesh.corners(cell)[0]])
+        for (const unsigned int node :
+             mesh.corners(cell)) // by area; the thickness is not known here
+          volumes[node] += dealii::cross_product_3d(
+                               nodes[mesh.corners(cell)[1]] - nodes[mesh.corners(cell)[0]],
+                               nodes[mesh.corners(cell)[2]] - nodes[mesh.corners(cell)[0]])
                                .norm()
                            / 6.;
       for (const auto &cell : mesh.get_cells())

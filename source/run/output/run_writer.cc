@@ -225,7 +225,7 @@ namespace Exemplar
         [&]
         {
           std::vector<dealii::Point<3>> nodes(is_linear && !has_tips ? mesh.whole().n_nodes
-                                                        : positions.size() / 3);
+                                                                     : positions.size() / 3);
           for (unsigned int dof = 0; dof < 3 * nodes.size(); ++dof)
             nodes[dof / 3][dof % 3] = positions[dof];
           mesh.write_pose(nodes, directory.get_files().final_pose());

@@ -114,8 +114,7 @@ namespace Exemplar
           = min_of_all(body.exchange(), nodes.empty() ? std::numeric_limits<double>::max()
                                                       : reach_of_a_cell(body, nodes[0]));
       return "Enlarge Handles/" + handles.name(h) + "/Select by " + short_text(1.01 * reach)
-             + " m, and it holds a whole "
-             + (body.mesh.is_shell() ? "triangle." : "tetrahedron.");
+             + " m, and it holds a whole " + (body.mesh.is_shell() ? "triangle." : "tetrahedron.");
     }
   } // namespace
 
@@ -187,16 +186,15 @@ namespace Exemplar
   }
 
   void
-  Constraints::check_rigid_motions(const SceneParameters &parameters,
-                                   const Body            &body) const
+  Constraints::check_rigid_motions(const SceneParameters &parameters, const Body &body) const
   {
     if (parameters.scene != SceneKind::statics)
       return;
     const bool has_obstacles = !parameters.obstacles.empty();
     if (has_obstacles && parameters.obstacles.free != FreeBodies::refused)
       return;
-    const auto         free_of_pieces = n_free_rigid_motions(body.mesh, body.fe_space, handles.held_dofs());
-    const auto         loose  = std::max_element(free_of_pieces.begin(), free_of_pieces.end());
+    const auto free_of_pieces = n_free_rigid_motions(body.mesh, body.fe_space, handles.held_dofs());
+    const auto loose          = std::max_element(free_of_pieces.begin(), free_of_pieces.end());
     const unsigned int n_free = *loose;
     const std::string  of_piece
         = free_of_pieces.size() == 1

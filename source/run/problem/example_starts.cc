@@ -47,9 +47,9 @@ namespace Exemplar
     IncrementalPotential       &potential = problem.potential;
     const Examples             &examples  = problem.examples;
     std::optional<ExampleStart> best;
-    if (problem.body.mesh.is_shell() || problem.parameters.scene != SceneKind::statics || examples.weights.n_unknown() == 0
-        || problem.elastic->remembers() || potential.get_weights().get_memory().in_use()
-        || !examples.starts.empty())
+    if (problem.body.mesh.is_shell() || problem.parameters.scene != SceneKind::statics
+        || examples.weights.n_unknown() == 0 || problem.elastic->remembers()
+        || potential.get_weights().get_memory().in_use() || !examples.starts.empty())
       return best;
     for (unsigned int i = 0; i < examples.poses.size(); ++i)
     {

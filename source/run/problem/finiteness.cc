@@ -74,8 +74,8 @@ namespace Exemplar
     const Evaluation     &evaluation = problem.evaluation;
     IncrementalPotential &potential  = problem.potential;
     const Exchange       &exchange   = problem.body.exchange();
-    const CellResults     cells      = problem.elastic->cell_results(state.positions, state.weights);
-    std::string           what       = exchange.first_text(what_is_not_finite(state, evaluation));
+    const CellResults     cells = problem.elastic->cell_results(state.positions, state.weights);
+    std::string           what  = exchange.first_text(what_is_not_finite(state, evaluation));
     if (what.empty())
       what = exchange.first_text(what_is_not_finite(cells));
     if (what.empty() && problem.actions.mass != nullptr

@@ -30,8 +30,8 @@ namespace Exemplar
     };
     if (!parameters.pose.empty())
     {
-      const auto nodes = fe_space.complete(
-          mesh.find_pose(poses, parameters.pose, "Initial/Pose"), "Initial/Pose");
+      const auto nodes = fe_space.complete(mesh.find_pose(poses, parameters.pose, "Initial/Pose"),
+                                           "Initial/Pose");
       for (unsigned int dof = 0; dof < fe_space.n_dofs(); ++dof)
         state.positions[dof] = nodes[dof / 3][dof % 3];
     }

@@ -64,7 +64,9 @@ namespace Exemplar
             potential,
             [this] { return make_bordered_system(parameters.solver, potential); },
             clock,
-            turns_freely(*this) && !parameters.model.is_frozen() ? body.fe_space.numbering().n_places() : 0),
+            turns_freely(*this) && !parameters.model.is_frozen()
+                ? body.fe_space.numbering().n_places()
+                : 0),
         solver(make_step_solver(parameters.solver, potential, system, constraints.handles, clock)),
         state(initial_state(parameters.initial,
                             body.mesh,
@@ -84,7 +86,8 @@ namespace Exemplar
     }
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation(parameters.initial, examples.poses, state);
-    slopes_held.assign(body.fe_space.numbering().n_nodes() - body.fe_space.numbering().n_places(), true);
+    slopes_held.assign(body.fe_space.numbering().n_nodes() - body.fe_space.numbering().n_places(),
+                       true);
     follow_slopes();
     if (actions.obstacles != nullptr)
     {
@@ -172,7 +175,8 @@ namespace Exemplar
         actions.integrator->end_step(state, next);
       if (turns_freely(*this))
       {
-        align(state.positions, next.positions, body.exchange(), body.fe_space.numbering().n_places());
+        align(state.positions, next.positions, body.exchange(),
+              body.fe_space.numbering().n_places());
         start(next);
       }
       if (parameters.solver.starts == Starts::examples && interval.end == end_of_scene(*this))

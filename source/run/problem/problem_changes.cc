@@ -119,7 +119,8 @@ namespace Exemplar
       return;
     const Vector tips = body.fe_space.with_tips(std::move(state.positions), slopes_held);
     state.positions   = body.fe_space.with_slopes(tips, held);
-    for (unsigned int dof = 3 * body.fe_space.numbering().n_places(); dof < state.velocities.size(); ++dof)
+    for (unsigned int dof = 3 * body.fe_space.numbering().n_places(); dof < state.velocities.size();
+         ++dof)
       state.velocities[dof] = 0.; // slopes have no mass
     slopes_held = std::move(held);
   }
@@ -285,7 +286,8 @@ namespace Exemplar
   {
     if (body.mesh.is_shell())
       throw UserError(parameters.name
-                      + ": energies and derivatives at given places are not for shells (Mesh/Kind) yet. Take what "
+                      + ": energies and derivatives at given places are not for shells (Mesh/Kind) "
+                        "yet. Take what "
                         "steps give.");
     if (lab == nullptr)
       lab = std::make_unique<Laboratory>(*this);

@@ -104,7 +104,9 @@ namespace Exemplar
   Body::Body(const SceneParameters &parameters, BodyInputs &inputs)
       : mesh(std::move(inputs.mesh)),
         material(make_material(parameters.examples, std::move(inputs.fields.material))),
-        fe_space(mesh.is_shell() ? FESpace(mesh, sections_of(inputs.fields.thicknesses, material), parameters.model.shell == ShellKind::plate)
+        fe_space(mesh.is_shell() ? FESpace(mesh,
+                                           sections_of(inputs.fields.thicknesses, material),
+                                           parameters.model.shell == ShellKind::plate)
                                  : FESpace(mesh, parameters.model.element)),
         patches(inputs.fields.patches, fe_space, material),
         cell_material(patches.rest_of(material)), made(inputs.undivided.made),
@@ -222,9 +224,9 @@ namespace Exemplar
                     const FreeDofs        &free_dofs)
   {
     if (body.mesh.is_shell())
-      return std::make_unique<ShellBody>(ShellParts{ body.fe_space.shell(), body.fe_space, body.material, poses,
-                                                     poses.get_strains(), weights, free_dofs,
-                                                     parameters.solver.n_threads });
+      return std::make_unique<ShellBody>(
+          ShellParts{ body.fe_space.shell(), body.fe_space, body.material, poses,
+                      poses.get_strains(), weights, free_dofs, parameters.solver.n_threads });
     return std::make_unique<ElasticPotential>(
         elastic_parts(parameters, body, poses, weights, free_dofs));
   }

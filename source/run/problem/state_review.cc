@@ -4,8 +4,8 @@
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/potential/body_contact_term.h>
-#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/potential/fibre_tension_term.h>
+#include <exemplar/potential/obstacle_term.h>
 #include <exemplar/run/problem/example_starts.h>
 #include <exemplar/run/problem/state_review.h>
 
@@ -301,9 +301,9 @@ namespace Exemplar
       if (warning)
         all.push_back(*warning);
     // strains of 1e-4 are no rounding, unless cells or weights have memory
-    const double energy    = problem.evaluation.elastic.energy;
-    const bool   remembers = problem.elastic->remembers()
-                           || problem.potential.get_weights().get_memory().in_use();
+    const double energy = problem.evaluation.elastic.energy;
+    const bool   remembers
+        = problem.elastic->remembers() || problem.potential.get_weights().get_memory().in_use();
     if (!remembers && is_unloaded(problem)
         && energy > 1e-8 * unit_energy(problem.body.fe_space, problem.body.material))
       all.push_back(

@@ -57,34 +57,43 @@ namespace Exemplar
                      section + "/Thickness is of shells. Set Mesh/Kind = shell, or remove it." },
                    { is_shell && !(constants.thickness >= least_thickness),
                      section + "/Thickness = " + shortest_text(constants.thickness)
-                         + ": a shell (Mesh/Kind) needs a thickness of at least 1e-6 m. Set it to what the "
+                         + ": a shell (Mesh/Kind) needs a thickness of at least 1e-6 m. Set it to "
+                           "what the "
                            "sheet measures, 0.001 for a millimetre." } });
         });
     if (!is_shell)
       return;
     const std::string solid = key_of_solids(*this), key = "Mesh/Kind = shell: ";
     refuse(
-        { { !solid.empty(), key + solid
-                                + " is of bodies with a volume. Remove it, or set Mesh/Kind = solid." },
+        { { !solid.empty(),
+            key + solid + " is of bodies with a volume. Remove it, or set Mesh/Kind = solid." },
           { mesh.generator != MeshGenerator::none,
-            key + "Mesh/Generator makes tetrahedra. Give a surface or a .msh of triangles as Mesh/File." },
+            key
+                + "Mesh/Generator makes tetrahedra. Give a surface or a .msh of triangles as "
+                  "Mesh/File." },
           { model.shell == ShellKind::hinges,
             key + "Model/Shell = hinges is not there yet. Leave it at plate, which converges." },
-          { material.is_painted(),
-            key + "painted maps of Material are not for shells yet. Give regions their constants instead." },
+          { material.is_painted(), key
+                                       + "painted maps of Material are not for shells yet. Give "
+                                         "regions their constants instead." },
           { examples.are_painted() || reads_off_surface(),
-            key + "what is read off a surface (Follow cache, Select = near or painted, maps) is not for shells yet. Select by "
+            key
+                + "what is read off a surface (Follow cache, Select = near or painted, maps) is "
+                  "not for shells yet. Select by "
                   "box, sphere, region, set or nodes." },
-          { !mesh.surface.empty(),
-            key + "Mesh/Surface is the surface that cells fill, but a shell is its own. Remove it." },
+          { !mesh.surface.empty(), key
+                                       + "Mesh/Surface is the surface that cells fill, but a shell "
+                                         "is its own. Remove it." },
           { output.shows_surface() && !is_surface_file(mesh.file),
-            key + "Output/Formats has a format that shows a surface, of which Mesh/File = " + mesh.file
+            key + "Output/Formats has a format that shows a surface, of which Mesh/File = "
+                + mesh.file
                 + " is none. Give an .obj, .ply or .stl, or set Output/Formats = vtu." },
           { !mesh.carried.empty(), key + "Mesh/Carry is not for shells. Remove it." },
-          { loads.balanced,
-            key + "Loads/Balanced = true is not for shells yet. Set it to false." },
+          { loads.balanced, key + "Loads/Balanced = true is not for shells yet. Set it to false." },
           { examples.acts_on != ActsOn::all || examples.elasticity().is_own(),
-            key + "Examples/Acts on, Example modulus and Example Poisson ratio are of bodies with a volume. Remove them." },
+            key
+                + "Examples/Acts on, Example modulus and Example Poisson ratio are of bodies with "
+                  "a volume. Remove them." },
           { examples.importance * examples.bending_importance > 1.,
             "Examples/Bending importance times Importance = "
                 + shortest_text(examples.importance * examples.bending_importance)
@@ -92,13 +101,16 @@ namespace Exemplar
           { solver.starts == Starts::examples,
             key + "Solver/Starts = examples is not for shells yet. Set it to state." },
           { solver.method == Method::one_pass || solver.method == Method::fixed_point,
-            key + "Solver/Method = one pass and fixed point hold rotations of cells. Set it to auto." },
+            key
+                + "Solver/Method = one pass and fixed point hold rotations of cells. Set it to "
+                  "auto." },
           { output.space_error != SpaceErrorUse::never,
             key + "Output/Space error compares tetrahedra. Set it to false." },
           { !output.functional.empty(),
             key + "gradients (Output/Functional, vjp) are not for shells yet. Remove it." },
           { !obstacles.empty() || !contact.empty(),
             key + "Obstacles and Contact are not for shells yet. Remove them." },
-          { !session.empty(), key + "a session is of the live page, which shells do not have yet. Remove it." } });
+          { !session.empty(),
+            key + "a session is of the live page, which shells do not have yet. Remove it." } });
   }
 } // namespace Exemplar

@@ -14,7 +14,9 @@ namespace Exemplar
   /// Places of the nodes in a pose of a shell, a surface or a mesh file with the same triangles, not scaled. Places of the tips of
   /// normals follow where a final.msh has them. Throws UserError naming the first difference.
   std::vector<dealii::Point<3>>
-  read_shell_pose(const std::filesystem::path &file, const MshFile &mesh, const std::string &mesh_name);
+  read_shell_pose(const std::filesystem::path &file,
+                  const MshFile               &mesh,
+                  const std::string           &mesh_name);
 } // namespace Exemplar
 
 #endif

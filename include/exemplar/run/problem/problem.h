@@ -185,19 +185,19 @@ namespace Exemplar
     std::vector<std::string>
     warnings() const;
 
-    CompleteScene                     parameters;
-    StepClock                         clock;
-    const TimeAxis                    time_axis;
-    Body                              body;
-    Constraints                       constraints;
-    Examples                          examples;
-    Actions                           actions;
+    CompleteScene                      parameters;
+    StepClock                          clock;
+    const TimeAxis                     time_axis;
+    Body                               body;
+    Constraints                        constraints;
+    Examples                           examples;
+    Actions                            actions;
     const std::unique_ptr<ElasticBody> elastic;   ///< cells, or the triangles of a shell
     IncrementalPotential               potential; ///< of these and terms
-    StepSystem                        system;
-    const std::unique_ptr<StepSolver> solver;
-    State                             state;
-    Evaluation                        evaluation; ///< at the state
+    StepSystem                         system;
+    const std::unique_ptr<StepSolver>  solver;
+    State                              state;
+    Evaluation                         evaluation; ///< at the state
 
     /// Called after each step with the state at its start and its length [s]; may be null.
     std::function<void(const State &start, double size)> on_step;
