@@ -33,7 +33,8 @@ namespace Exemplar
   {
     std::vector<double> strain_energy_density; ///< 1/2 e:C:e [J/m^3]
     std::vector<double> area_ratio;            ///< area over that at rest
-    std::vector<double> von_mises_stress;      ///< the greater one of the two faces [Pa]
+    std::vector<double>
+        von_mises_stress; ///< the greater one of the two faces [Pa]; empty with hinges
   };
 
   /// The body of a shell: of each triangle the energy volume/2 (e - D):C:(e - D) of its six strains, in plane
@@ -209,10 +210,14 @@ namespace Exemplar
     void
     add_energies(unsigned int triangle, ElasticSums &sums) const;
 
+    /// The forces at the vertices of a triangle of the first three stresses, over its volume.
+    std::array<Vector3<double>, 3>
+    membrane_forces(unsigned int triangle, const Vector &positions) const;
+
     /// Add the forces at the vertices of the membrane's stress and those at slopes, and add to the scales
     /// of the hinges' moments.
     void
-    add_forces(unsigned int triangle, ElasticSums &sums);
+    add_forces(unsigned int triangle, const Vector &positions, ElasticSums &sums);
 
     /// Add those of the hinges' moments.
     void
@@ -235,7 +240,16 @@ namespace Exemplar
                  TriangleTangent &to) const;
 
     void
-    find_strain_slopes(unsigned int triangle, TriangleTangent &to) const;
+    find_strain_slopes(unsigned int triangle, const Vector &positions, TriangleTangent &to) const;
+
+    void
+    find_stretch_slopes(unsigned int triangle, const Vector &positions, TriangleTangent &to) const;
+
+    void
+    add_stretch_geometry(unsigned int     triangle,
+                         bool             convex,
+                         const Vector    &positions,
+                         TriangleTangent &to) const;
 
     void
     add_membrane_geometry(unsigned int triangle, bool convex, TriangleTangent &to) const;
