@@ -54,7 +54,7 @@ namespace Exemplar
       return std::sqrt(A[0] * A[0] + A[1] * A[1] + 2. * A[2] * A[2]);
     }
 
-    /// Of a plane stress.
+    /// The equivalent stress of a plane one.
     double
     von_mises(const double x, const double y, const double xy)
     {

@@ -34,7 +34,7 @@ namespace Exemplar
     double    lambda = 0., mu = 0.;
     ShellKind kind = ShellKind::plate;
 
-    /// Of a solid with these constants of Lamé, which is free to change its thickness.
+    /// A solid with these constants of Lamé has it where it is free to change its thickness.
     static ShellElasticity
     of_solid(const double lambda, const double mu, const ShellKind kind = ShellKind::plate)
     {

@@ -95,7 +95,7 @@ namespace Exemplar
     void
     update_rotations(const Vector &positions) override;
 
-    /// Of a vertex that fitted to its triangles; slope nodes do not turn.
+    /// A vertex turns by the rotation that fits its triangles best; slope nodes do not turn.
     void
     node_rotations(std::vector<float> &rotations) override;
 
@@ -167,6 +167,7 @@ namespace Exemplar
       std::array<int, max_entries> positions{}; ///< of the lower triangle by rows; -1: held
     };
 
+    /// A hinge at the positions of find_strains().
     struct HingeState
     {
       HingeForm<double> gradient;
@@ -174,6 +175,7 @@ namespace Exemplar
       double            moment_scale = 0.;
     };
 
+    /// A triangle at these, and its stresses of find_stresses().
     struct TriangleState
     {
       MembraneStrain<double> membrane = { { { 1., 0., 0. } }, { { 0., 1., 0. } } };
