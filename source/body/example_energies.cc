@@ -116,11 +116,12 @@ namespace Exemplar
   TargetEnergy
   ExamplePoses::energy_of_shell(const Material &material) const
   {
-    const auto stress = [&material](const unsigned int cell, const double *a, double *T)
+    const auto stress = [&material, kind = fe_space.shell().kind()](const unsigned int cell,
+                                                                    const double *a, double *T)
     {
       ShellStrain strain;
       std::copy_n(a, n_shell_strains, strain.begin());
-      strain = shell_elasticity(material, cell).stress(strain);
+      strain = shell_elasticity(material, cell, kind).stress(strain);
       std::copy_n(strain.begin(), n_shell_strains, T);
     };
     TargetEnergy energy{ strains, { stress }, {} };

@@ -53,10 +53,10 @@ namespace Exemplar
   } // namespace
 
   ShellElasticity
-  shell_elasticity(const Material &material, const unsigned int cell)
+  shell_elasticity(const Material &material, const unsigned int cell, const ShellKind kind)
   {
     const CellMaterial<double> &solid = material.elasticity(cell);
-    return ShellElasticity::of_solid(solid.lambda, solid.mu);
+    return ShellElasticity::of_solid(solid.lambda, solid.mu, kind);
   }
 
   double

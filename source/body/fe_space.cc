@@ -70,12 +70,14 @@ namespace Exemplar
 
   FESpace::FESpace(const Mesh               &mesh,
                    std::vector<ShellSection> sections_of_cells,
-                   const bool                has_slopes)
-      : mesh(mesh), kind(Element::P1), nodes_of_element(mesh, kind, has_slopes),
+                   const ShellKind           shell_kind)
+      : mesh(mesh), kind(Element::P1), nodes_of_element(mesh, kind, shell_kind == ShellKind::plate),
         fe(dealii::FE_SimplexP<3>(1), 3), mapping(dealii::FE_SimplexP<3>(1)),
         sections(std::move(sections_of_cells)),
-        shell_mesh(std::make_unique<const ShellMesh>(
-            vectors_of(mesh.get_nodes()), mesh.get_triangles(), thicknesses_of(sections)))
+        shell_mesh(std::make_unique<const ShellMesh>(vectors_of(mesh.get_nodes()),
+                                                     mesh.get_triangles(),
+                                                     thicknesses_of(sections),
+                                                     shell_kind))
   {
     for (const ShellTriangle &triangle : shell_mesh->triangles())
       volumes.push_back(triangle.volume());
@@ -152,7 +154,8 @@ namespace Exemplar
   FESpace::shell_strains(const Vector &positions_with_tips) const
   {
     ShellStrains strains(*shell_mesh);
-    strains.set_held(std::vector<bool>(shell_mesh->edges().size(), true));
+    if (nodes_of_element.has_slopes())
+      strains.set_held(std::vector<bool>(shell_mesh->edges().size(), true));
     return strains.strains(positions_with_tips);
   }
 

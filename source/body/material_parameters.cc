@@ -307,6 +307,10 @@ namespace Exemplar
     keys.add("Mass matrix", mass_matrix, mass_matrices,
              "consistent, or lumped at the nodes. Used by dynamics, and by gravity on quadratic "
              "elements.");
+    keys.add("Volume stiffness", volume_stiffness,
+             "Of a closed shell: resistance [Pa] of the volume that it encloses; 0: none. Others "
+             "are refused yet.",
+             Bounds{ 0. });
     keys.add_file("Young's modulus map", youngs_modulus_map,
                   "E painted on the surface: MAP [from A to B] [absolute], where MAP is "
                   "FILE.ply:ATTRIBUTE or "

@@ -45,8 +45,9 @@ namespace Exemplar
 
   ShellMesh::ShellMesh(const std::vector<Vector3<double>>             &vertices,
                        const std::vector<std::array<unsigned int, 3>> &triangles,
-                       const std::vector<double>                      &thickness)
-      : vertices(vertices), all_triangles(triangles.size())
+                       const std::vector<double>                      &thickness,
+                       const ShellKind                                 kind)
+      : of_kind(kind), vertices(vertices), all_triangles(triangles.size())
   {
     for (std::size_t i = 0; i < triangles.size(); ++i)
     {
@@ -55,6 +56,8 @@ namespace Exemplar
     }
     find_edges();
     find_rest_shape();
+    if (kind == ShellKind::hinges)
+      bend_by_hinges();
   }
 
   void
@@ -119,6 +122,22 @@ namespace Exemplar
       const HingeSide<double> side(a, b, vertices[edge.opposite[0]]);
       edge.normal = combine(std::cos(0.5 * edge.angle), side.n, std::sin(0.5 * edge.angle), side.t);
     }
+  }
+
+  void
+  ShellMesh::bend_by_hinges()
+  {
+    for (ShellTriangle &triangle : all_triangles)
+      for (int i = 0; i < 3; ++i)
+      {
+        const ShellEdge &edge = all_edges[triangle.edges[i]];
+        double           area = 0.;
+        for (const unsigned int other : edge.triangles)
+          if (other != ShellEdge::none)
+            area += all_triangles[other].area;
+        triangle.bending[i]    = {};
+        triangle.bending[i][i] = triangle.thickness / std::sqrt(12.) * edge.length / area;
+      }
   }
 
   Vector3<double>

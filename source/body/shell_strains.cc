@@ -135,11 +135,14 @@ namespace Exemplar
                            of.signs[i] > 0. ? 1U : 2U }),
                1. };
     ShellTurn turn;
-    turn.slope    = 3 * static_cast<int>(mesh.slope_node(number));
-    turn.of_slope = of.signs[i] / edge.length;
+    if (mesh.kind() == ShellKind::plate)
+    {
+      turn.slope    = 3 * static_cast<int>(mesh.slope_node(number));
+      turn.of_slope = of.signs[i] / edge.length;
+    }
     if (edge.is_border())
       return turn;
-    turn.of_hinge = 0.5;
+    turn.of_hinge = mesh.kind() == ShellKind::plate ? 0.5 : 1.;
     turn.hinge    = of.signs[i] > 0.
                         ? add_hinge({ { { edge.begin, edge.end, edge.opposite[0], edge.opposite[1] } },
                                       0.,
@@ -226,13 +229,29 @@ namespace Exemplar
     return result;
   }
 
-  ShellStrain
-  ShellStrains::strain(const ShellTriangle          &triangle,
-                       const MembraneStrain<double> &membrane,
-                       const std::array<double, 3>  &turns)
+  ShellStretch
+  ShellStrains::stretch(const unsigned int triangle,
+                        const unsigned int i,
+                        const Vector      &positions) const
   {
+    const auto           &nodes = mesh.triangles()[triangle].nodes;
+    const Vector3<double> edge
+        = difference(place_in(positions, nodes[(i + 1) % 3]), place_in(positions, nodes[i]));
+    const double length = norm(edge);
+    return { times(1. / length, edge), length };
+  }
+
+  ShellStrain
+  ShellStrains::strain(const unsigned int            t,
+                       const Vector                 &positions,
+                       const MembraneStrain<double> &membrane,
+                       const std::array<double, 3>  &turns) const
+  {
+    const ShellTriangle     &triangle = mesh.triangles()[t];
     const Symmetric2<double> of_plane = membrane.strain();
     ShellStrain              result   = { { of_plane[0], of_plane[1], of_plane[2], 0., 0., 0. } };
+    for (unsigned int i = 0; i < 3 && mesh.kind() == ShellKind::hinges; ++i)
+      result[i] = stretch(t, i, positions).length / mesh.edges()[triangle.edges[i]].length - 1.;
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k)
         result[3 + k] += turns[i] * triangle.bending[i][k];
@@ -255,7 +274,7 @@ namespace Exemplar
     std::vector<ShellStrain>  result;
     for (unsigned int t = 0; t < mesh.triangles().size(); ++t)
       result.push_back(
-          strain(mesh.triangles()[t], membrane(t, positions), turns_of(t, positions, of_hinges)));
+          strain(t, positions, membrane(t, positions), turns_of(t, positions, of_hinges)));
     return result;
   }
 

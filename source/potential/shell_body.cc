@@ -54,7 +54,7 @@ namespace Exemplar
       return std::sqrt(A[0] * A[0] + A[1] * A[1] + 2. * A[2] * A[2]);
     }
 
-    /// Of a plane stress.
+    /// The equivalent stress of a plane one.
     double
     von_mises(const double x, const double y, const double xy)
     {
@@ -77,7 +77,7 @@ namespace Exemplar
     for (unsigned int t = 0; t < parts.mesh.triangles().size(); ++t)
     {
       const CellMaterial<double> &solid = parts.material.elasticity(t);
-      elasticities.push_back(ShellElasticity::of_solid(solid.lambda, solid.mu));
+      elasticities.push_back(ShellElasticity::of_solid(solid.lambda, solid.mu, parts.mesh.kind()));
     }
     estimate_rounding();
   }
@@ -213,16 +213,15 @@ namespace Exemplar
                       changes[i]                     = strains.change(i, angle);
                     }
                   });
-    const std::vector<ShellTriangle> &mesh = parts.mesh.triangles();
-    for_each_part(n, mesh.size(), n,
+    for_each_part(n, triangles.size(), n,
                   [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
                   {
                     for (std::size_t t = begin; t < end; ++t)
                     {
                       TriangleState &state = triangles[t];
                       state.membrane       = strains.membrane(t, positions);
-                      state.strain         = ShellStrains::strain(mesh[t], state.membrane,
-                                                                  strains.turns_of(t, positions, changes));
+                      state.strain         = strains.strain(t, positions, state.membrane,
+                                                            strains.turns_of(t, positions, changes));
                       if (rotations != RotationUse::keep)
                         frames[t] = { { state.membrane.axis(0), state.membrane.axis(1),
                                         state.membrane.normal() } };
@@ -287,8 +286,32 @@ namespace Exemplar
     sums->energy_damping += 0.5 * damping * volume * contract(C.stress(change), change);
   }
 
+  std::array<Vector3<double>, 3>
+  ShellBody::membrane_forces(const unsigned int t, const Vector &positions) const
+  {
+    const ShellTriangle           &triangle = parts.mesh.triangles()[t];
+    const ShellStrain             &T        = triangles[t].driven;
+    std::array<Vector3<double>, 3> forces{};
+    if (parts.mesh.kind() == ShellKind::hinges)
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        const double force
+            = (i == 2 ? 2. : 1.) * T[i] / parts.mesh.edges()[triangle.edges[i]].length;
+        const Vector3<double> direction = strains.stretch(t, i, positions).direction;
+        forces[i]                       = combine(1., forces[i], -force, direction);
+        forces[(i + 1) % 3]             = combine(1., forces[(i + 1) % 3], force, direction);
+      }
+    else
+    {
+      const auto P = triangles[t].membrane.force({ { T[0], T[1], T[2] } });
+      for (unsigned int i = 0; i < 3; ++i)
+        forces[i] = combine(triangle.gradients[i][0], P[0], triangle.gradients[i][1], P[1]);
+    }
+    return forces;
+  }
+
   void
-  ShellBody::add_forces(const unsigned int t, ElasticSums &sums)
+  ShellBody::add_forces(const unsigned int t, const Vector &positions, ElasticSums &sums)
   {
     const ShellTriangle   &triangle = parts.mesh.triangles()[t];
     const TriangleState   &state    = triangles[t];
@@ -303,14 +326,14 @@ namespace Exemplar
       return triangle.volume() * sum;
     };
     const ShellStrain &T           = state.driven;
-    const auto         P           = state.membrane.force({ { T[0], T[1], T[2] } });
+    const auto         membrane    = membrane_forces(t, positions);
     const double       of_membrane = scale(norm_of_membrane), of_bending = scale(norm_of_bending);
     const std::array<double, 3> m = moments(triangle, T);
     for (int i = 0; i < 3; ++i)
     {
       const auto        &g    = triangle.gradients[i];
       const unsigned int node = triangle.nodes[i];
-      add_force(node, triangle.volume(), combine(g[0], P[0], g[1], P[1]), sums->gradient);
+      add_force(node, triangle.volume(), membrane[i], sums->gradient);
       sums->force_scale[node] += of_membrane * norm_in_plane(g);
       const ShellTurn &turn         = strains.turns(t)[i];
       const double     moment_scale = of_bending * norm_in_plane(triangle.bending[i]);
@@ -358,7 +381,7 @@ namespace Exemplar
     for (unsigned int t = 0; t < triangles.size(); ++t)
     {
       add_energies(t, own);
-      add_forces(t, own);
+      add_forces(t, positions, own);
       if (with_weights)
         add_weight_products(t, triangles[t].stress, -1., own->weight_gradient);
     }
@@ -418,7 +441,8 @@ namespace Exemplar
       results.strain_energy_density.push_back(
           0.5 * contract(elasticities[t].stress(state.strain), state.strain));
       results.det_F.push_back(state.membrane.area_ratio());
-      results.von_mises_stress.push_back(std::max(face(outside), face(-outside)));
+      if (parts.mesh.kind() == ShellKind::plate)
+        results.von_mises_stress.push_back(std::max(face(outside), face(-outside)));
     }
     return results;
   }

@@ -24,7 +24,8 @@ namespace Exemplar
       std::vector<unsigned int> nodes(triangle.nodes.begin(), triangle.nodes.end());
       for (const unsigned int edge : triangle.edges)
       {
-        nodes.push_back(mesh.slope_node(edge));
+        if (mesh.kind() == ShellKind::plate)
+          nodes.push_back(mesh.slope_node(edge));
         for (const unsigned int opposite : mesh.edges()[edge].opposite)
           if (opposite != ShellEdge::none)
             nodes.push_back(opposite);
@@ -73,9 +74,9 @@ namespace Exemplar
   {
     pattern                = &new_pattern;
     const ShellMesh  &mesh = parts.mesh;
-    std::vector<bool> held;
-    for (unsigned int edge = 0; edge < mesh.edges().size(); ++edge)
-      held.push_back(parts.free_dofs.free_index(3 * mesh.slope_node(edge)) == FreeDofs::held);
+    std::vector<bool> held(mesh.edges().size(), false);
+    for (unsigned int edge = 0; edge < mesh.n_slopes(); ++edge)
+      held[edge] = parts.free_dofs.free_index(3 * mesh.slope_node(edge)) == FreeDofs::held;
     strains.set_held(held);
     hinges.resize(strains.get_hinges().size());
     dofs.clear();
@@ -122,7 +123,9 @@ namespace Exemplar
   }
 
   void
-  ShellBody::find_strain_slopes(const unsigned int t, TriangleTangent &to) const
+  ShellBody::find_strain_slopes(const unsigned int t,
+                                const Vector      &positions,
+                                TriangleTangent   &to) const
   {
     const ShellTriangle &triangle = parts.mesh.triangles()[t];
     to.B.fill({});
@@ -135,6 +138,8 @@ namespace Exemplar
       for (int k = 0; k < 3; ++k)
         to.B[p][k] = to.changes[p].dU[k];
     }
+    if (parts.mesh.kind() == ShellKind::hinges)
+      find_stretch_slopes(t, positions, to);
     const auto add = [&](const int edge, const double turn, ShellStrain &strain)
     {
       for (int k = 0; k < 3; ++k)
@@ -151,6 +156,53 @@ namespace Exemplar
     }
     for (unsigned int p = 0; p < dofs[t].n; ++p)
       to.CB[p] = elasticities[t].stress(to.B[p]);
+  }
+
+  void
+  ShellBody::find_stretch_slopes(const unsigned int t,
+                                 const Vector      &positions,
+                                 TriangleTangent   &to) const
+  {
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      const Vector3<double> direction = strains.stretch(t, i, positions).direction;
+      const double          rest = parts.mesh.edges()[parts.mesh.triangles()[t].edges[i]].length;
+      for (unsigned int node = 0; node < 3; ++node)
+        for (unsigned int c = 0; c < 3; ++c)
+          to.B[3 * node + c][i] = node == i             ? -direction[c] / rest
+                                  : node == (i + 1) % 3 ? direction[c] / rest
+                                                        : 0.;
+    }
+  }
+
+  void
+  ShellBody::add_stretch_geometry(const unsigned int t,
+                                  const bool         convex,
+                                  const Vector      &positions,
+                                  TriangleTangent   &to) const
+  {
+    const ShellTriangle &triangle = parts.mesh.triangles()[t];
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      const ShellStretch stretch = strains.stretch(t, i, positions);
+      const double       factor  = (i == 2 ? 2. : 1.) * triangle.volume() * triangles[t].driven[i]
+                            / (parts.mesh.edges()[triangle.edges[i]].length * stretch.length);
+      if (convex && factor < 0.)
+        continue;
+      const unsigned int begin = 3 * i, end = 3 * ((i + 1) % 3);
+      for (unsigned int c = 0; c < 3; ++c)
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          const double across
+              = factor * ((c == d ? 1. : 0.) - stretch.direction[c] * stretch.direction[d]);
+          if (d <= c)
+          {
+            to.entries[lower(begin + c, begin + d)] += across;
+            to.entries[lower(end + c, end + d)] += across;
+          }
+          to.entries[begin > end ? lower(begin + c, end + d) : lower(end + c, begin + d)] -= across;
+        }
+    }
   }
 
   void
@@ -211,11 +263,14 @@ namespace Exemplar
   {
     const bool   convex = kind == Tangent::convex;
     const double factor = (1. + damping) * parts.mesh.triangles()[t].volume();
-    find_strain_slopes(t, to);
+    find_strain_slopes(t, positions, to);
     for (unsigned int p = 0; p < dofs[t].n; ++p)
       for (unsigned int q = 0; q <= p; ++q)
         to.entries[lower(p, q)] = factor * contract(to.CB[p], to.B[q]);
-    add_membrane_geometry(t, convex, to);
+    if (parts.mesh.kind() == ShellKind::hinges)
+      add_stretch_geometry(t, convex, positions, to);
+    else
+      add_membrane_geometry(t, convex, to);
     if (!convex) // what moments have that is positive makes steps shorter, and twice as many
       add_hinge_geometry(t, positions, to);
   }

@@ -42,8 +42,9 @@ namespace Exemplar::Testing
             targets.number(t, i + 1, k) = eta * of_pose[t][k];
       }
       const auto &solid_elasticity = material.elasticity(0);
-      const auto  C    = ShellElasticity::of_solid(solid_elasticity.lambda, solid_elasticity.mu);
-      const auto  dual = [C](unsigned int, const double *a, double *T)
+      const auto  C
+          = ShellElasticity::of_solid(solid_elasticity.lambda, solid_elasticity.mu, mesh.kind());
+      const auto dual = [C](unsigned int, const double *a, double *T)
       {
         const ShellStrain stress = C.stress({ { a[0], a[1], a[2], a[3], a[4], a[5] } });
         std::copy(stress.begin(), stress.end(), T);
@@ -168,7 +169,7 @@ namespace Exemplar::Testing
     std::vector<unsigned int>
     held_dofs(const std::vector<bool> &held, std::vector<unsigned int> all) const
     {
-      for (unsigned int edge = 0; edge < mesh.edges().size(); ++edge)
+      for (unsigned int edge = 0; edge < mesh.n_slopes(); ++edge)
         for (unsigned int c = held.empty() || !held[edge] ? 1 : 0; c < 3; ++c)
           all.push_back(3 * mesh.slope_node(edge) + c);
       std::sort(all.begin(), all.end());

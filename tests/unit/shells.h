@@ -21,7 +21,8 @@ namespace Exemplar::Testing
             const unsigned int                              ny,
             const std::function<Place(double x, double y)> &place,
             const double                                    thickness,
-            const bool                                      alternating = false)
+            const bool                                      alternating = false,
+            const ShellKind                                 kind        = ShellKind::plate)
   {
     std::vector<Place>                       vertices;
     std::vector<std::array<unsigned int, 3>> triangles;
@@ -37,12 +38,12 @@ namespace Exemplar::Testing
         else
           triangles.insert(triangles.end(), { { { a, b, c } }, { { a, c, d } } });
       }
-    return { vertices, triangles, std::vector<double>(triangles.size(), thickness) };
+    return { vertices, triangles, std::vector<double>(triangles.size(), thickness), kind };
   }
 
   /// A curved patch with triangles of all shapes.
   inline ShellMesh
-  bumpy_patch()
+  bumpy_patch(const ShellKind kind = ShellKind::plate)
   {
     std::mt19937                     engine(7);
     std::uniform_real_distribution<> random(-0.04, 0.04);
@@ -53,7 +54,7 @@ namespace Exemplar::Testing
           return Place{ { x + random(engine), 0.8 * y + random(engine),
                           0.3 * std::sin(3. * x) * y + random(engine) } };
         },
-        0.05, true);
+        0.05, true, kind);
   }
 
   /// At rest, with slope nodes as they are told.

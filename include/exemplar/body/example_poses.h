@@ -17,7 +17,7 @@ namespace Exemplar
 {
   /// The plane elasticity of a shell's triangle.
   ShellElasticity
-  shell_elasticity(const Material &material, unsigned int cell);
+  shell_elasticity(const Material &material, unsigned int cell, ShellKind kind);
 
   /// sum E V over the cells [J]: the energy scale of a strain of 1.
   double

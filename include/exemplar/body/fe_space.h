@@ -37,9 +37,9 @@ namespace Exemplar
   public:
     explicit FESpace(const Mesh &mesh, Element element = Element::P1);
 
-    /// The space of a shell: linear triangles of these sections, with a quadrature point each, and slopes behind the
-    /// vertices or not, see NodeNumbering. It has no gradients of shape functions: what a shell resists, ShellStrains knows.
-    FESpace(const Mesh &mesh, std::vector<ShellSection> sections, bool has_slopes);
+    /// The space of a shell: linear triangles of these sections, with a quadrature point each, and the slopes of a plate
+    /// behind the vertices, see NodeNumbering. It has no gradients of shape functions: what a shell resists, ShellStrains knows.
+    FESpace(const Mesh &mesh, std::vector<ShellSection> sections, ShellKind kind);
 
     /// The triangles and edges of a shell; only for one.
     const ShellMesh &

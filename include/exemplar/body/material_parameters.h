@@ -77,8 +77,9 @@ namespace Exemplar
   /// Subsection Material.
   struct MaterialParameters
   {
-    ElasticConstants                         everywhere;
-    MassMatrix                               mass_matrix = MassMatrix::consistent;
+    ElasticConstants everywhere;
+    MassMatrix       mass_matrix      = MassMatrix::consistent;
+    double           volume_stiffness = 0.;                 ///< of what a shell encloses [Pa]
     std::map<unsigned int, ElasticConstants> regions;       ///< regions by material id
     std::map<std::string, ElasticConstants>  named_regions; ///< regions by name, as in the scene
     /// Painted maps, each with its mode of use; empty: none.

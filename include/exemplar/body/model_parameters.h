@@ -2,6 +2,7 @@
 #ifndef exemplar_model_parameters_h
 #define exemplar_model_parameters_h
 
+#include <exemplar/body/shell_mesh.h>
 #include <exemplar/kernels/cell_model.h>
 
 namespace Exemplar
@@ -22,13 +23,6 @@ namespace Exemplar
     automatic, ///< patches for the strains that have them, cells for others and in interpolations
     cells,
     patches ///< mean over a patch, Eqs. (25) and (37)
-  };
-
-  /// What a shell resists, and what its examples ask for.
-  enum class ShellKind
-  {
-    plate, ///< membrane strains and curvatures of triangles
-    hinges ///< lengths of edges and angles between triangles
   };
 
   /// The energy of the body without examples.

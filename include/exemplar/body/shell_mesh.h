@@ -18,6 +18,13 @@ namespace Exemplar
     return { { x[0], x[1], x[2] } };
   }
 
+  /// What the strains of a shell are, see ShellStrains.
+  enum class ShellKind
+  {
+    plate,
+    hinges
+  };
+
   /// An edge of a shell at rest. It runs from begin to end as its first triangle has it, whose third
   /// vertex is opposite[0]; the second triangle, if there is one, runs from end to begin.
   struct ShellEdge
@@ -50,8 +57,9 @@ namespace Exemplar
     std::array<Vector3<double>, 3>       axes;      ///< of the frame; the third is the normal
     std::array<std::array<double, 2>, 3> gradients; ///< of the shape functions, in the frame [1/m]
 
-    /// What the turn [rad] of the normal at edge i adds to the curvatures xx, yy, xy, which are scaled
-    /// by thickness/12^(1/2): l_i/A t_i t_i^T with the unit normal t_i of the edge.
+    /// What the turn [rad] of the normal at edge i adds to the three curvatures, which are scaled by
+    /// thickness/12^(1/2). They are xx, yy, xy of a plate: l_i/A t_i t_i^T with the unit normal t_i of
+    /// the edge. With hinges the i-th is l_i/(A + A') times the angle at edge i, beyond which A' is.
     std::array<std::array<double, 3>, 3> bending;
 
     /// [m^3]
@@ -63,7 +71,7 @@ namespace Exemplar
   };
 
   /// A surface of triangles with a thickness, which share edges two by two. Its nodes are the vertices,
-  /// in their order, then the slope nodes, one an edge; edges ascend by their ends, the lesser first.
+  /// in their order, then those of slopes, one an edge of a plate; edges ascend by their ends, the lesser first.
   class ShellMesh
   {
   public:
@@ -71,7 +79,14 @@ namespace Exemplar
     /// thickness [m] for each.
     ShellMesh(const std::vector<Vector3<double>>             &vertices,
               const std::vector<std::array<unsigned int, 3>> &triangles,
-              const std::vector<double>                      &thickness);
+              const std::vector<double>                      &thickness,
+              ShellKind                                       kind = ShellKind::plate);
+
+    ShellKind
+    kind() const
+    {
+      return of_kind;
+    }
 
     unsigned int
     n_vertices() const
@@ -95,7 +110,14 @@ namespace Exemplar
     unsigned int
     n_nodes() const
     {
-      return n_vertices() + all_edges.size();
+      return n_vertices() + n_slopes();
+    }
+
+    /// One an edge of a plate, none with hinges.
+    unsigned int
+    n_slopes() const
+    {
+      return of_kind == ShellKind::plate ? all_edges.size() : 0;
     }
 
     unsigned int
@@ -124,6 +146,12 @@ namespace Exemplar
 
     void
     find_rest_shape();
+
+    /// Let curvatures be those of hinges.
+    void
+    bend_by_hinges();
+
+    ShellKind of_kind;
 
     std::vector<Vector3<double>> vertices;
     std::vector<ShellTriangle>   all_triangles;

@@ -13,8 +13,9 @@
 namespace Exemplar
 {
   /// The strains of a triangle [-]: membrane xx, yy, xy of U - I, then curvature xx, yy, xy times
-  /// thickness/12^(1/2), in the triangle's own frame. A product of two lists counts xy twice, see
-  /// shell_strain_order().
+  /// thickness/12^(1/2), in the triangle's own frame. With hinges they are the relative changes of length
+  /// of the three edges and the changes of their angles, which ShellTriangle::bending scales. A product of two
+  /// lists counts the last one of each three twice, see shell_strain_order().
   constexpr unsigned int n_shell_strains = 6;
   using ShellStrain                      = std::array<double, n_shell_strains>;
 
@@ -26,29 +27,40 @@ namespace Exemplar
   }
 
   /// The elasticity of a triangle in plane stress: lambda tr(a) I + 2 mu a of the membrane's part and
-  /// alike of the curvature's [Pa].
+  /// alike of the curvature's [Pa]. With hinges each number has a stiffness of its own: E of lengths and
+  /// E/(1 - nu^2) of angles. With that a plane of equilateral triangles has Young's modulus E and the flexural rigidity of
+  /// a plate (Seung and Nelson 1988).
   struct ShellElasticity
   {
-    double lambda = 0., mu = 0.;
+    double    lambda = 0., mu = 0.;
+    ShellKind kind = ShellKind::plate;
 
-    /// Of a solid with these constants of Lamé, which is free to change its thickness.
+    /// A solid with these constants of Lamé has it where it is free to change its thickness.
     static ShellElasticity
-    of_solid(const double lambda, const double mu)
+    of_solid(const double lambda, const double mu, const ShellKind kind = ShellKind::plate)
     {
-      return { 2. * lambda * mu / (lambda + 2. * mu), mu };
+      return { 2. * lambda * mu / (lambda + 2. * mu), mu, kind };
     }
 
     /// T with T.b = a:C:b.
     ShellStrain
     stress(const ShellStrain &a) const
     {
+      if (kind == ShellKind::hinges)
+      {
+        const double angle  = lambda + 2. * mu; // E/(1 - nu^2)
+        const double length = 4. * mu * (lambda + mu) / angle;
+        // the last ones count twice
+        return { { length * a[0], length * a[1], 0.5 * length * a[2], angle * a[3], angle * a[4],
+                   0.5 * angle * a[5] } };
+      }
       const double membrane = lambda * (a[0] + a[1]), bending = lambda * (a[3] + a[4]);
       return { { membrane + 2. * mu * a[0], membrane + 2. * mu * a[1], 2. * mu * a[2],
                  bending + 2. * mu * a[3], bending + 2. * mu * a[4], 2. * mu * a[5] } };
     }
   };
 
-  /// T.b, in which xy counts twice.
+  /// T.b, in which the last one of each three counts twice.
   inline double
   contract(const ShellStrain &T, const ShellStrain &b)
   {
@@ -75,10 +87,18 @@ namespace Exemplar
     double of_slope = 0.; ///< [1/m]
   };
 
-  /// The plate's strains of a shell (Grinspun, Gingold, Reisman and Zorin 2006). The normal at the middle of
+  /// An edge of a triangle as it is.
+  struct ShellStretch
+  {
+    Vector3<double> direction; ///< from its vertex i to the next one
+    double          length;    ///< [m]
+  };
+
+  /// The strains of a shell. Those of a plate are by Grinspun, Gingold, Reisman and Zorin (2006). The normal at the middle of
   /// an edge turns out of the bisector of its triangles. Degree of freedom 3 p of its slope node p is its length
   /// times that turn; but where the node is held, its place is that of the tip of the edge's director, which
-  /// the normal follows.
+  /// the normal follows. Hinges (Froehlich and Botsch 2011) have no slopes: their strains are lengths and
+  /// angles, which is less for the eye, but not for a mesh that is refined: bending then depends on its pattern.
   class ShellStrains
   {
   public:
@@ -135,16 +155,22 @@ namespace Exemplar
              const Vector              &positions,
              const std::vector<double> &changes) const;
 
-    static ShellStrain
-    strain(const ShellTriangle          &triangle,
+    /// Edge i of a triangle.
+    ShellStretch
+    stretch(unsigned int triangle, unsigned int i, const Vector &positions) const;
+
+    /// From the membrane and the turns of a triangle.
+    ShellStrain
+    strain(unsigned int                  triangle,
+           const Vector                 &positions,
            const MembraneStrain<double> &membrane,
-           const std::array<double, 3>  &turns);
+           const std::array<double, 3>  &turns) const;
 
     /// Strains of all triangles.
     std::vector<ShellStrain>
     strains(const Vector &positions) const;
 
-    /// The slope l phi [m] of each edge at these positions, whether it is held or not.
+    /// The slope l phi [m] of each edge of a plate at these positions, whether it is held or not.
     std::vector<double>
     slopes(const Vector &positions) const;
 
@@ -153,7 +179,7 @@ namespace Exemplar
     Vector3<double>
     tip(unsigned int edge, const Vector &positions) const;
 
-    /// The slopes [m] of least bending energy for given places of the vertices, whatever is held; they are unique. `elasticity`
+    /// The slopes [m] of a plate of least bending energy for given places of the vertices, whatever is held; they are unique. `elasticity`
     /// is that of a triangle.
     std::vector<double>
     least_bending_slopes(const Vector                                       &positions,

@@ -108,6 +108,7 @@ namespace Exemplar
   private:
     using SideForm = std::array<Vector3<Number>, 3>;
 
+    /// HingeProduct of forms at the nodes of a side.
     struct SideProduct
     {
       Number   factor;

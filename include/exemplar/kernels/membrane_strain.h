@@ -122,7 +122,7 @@ namespace Exemplar
       return { { combine(N[0], R[0], N[2] - mu, R[1]), combine(N[2] + mu, R[0], N[1], R[1]) } };
     }
 
-    /// By dF = d g^T for a vector d in space and one in the plane.
+    /// The change by dF = d g^T, for a vector d in space and one in the plane.
     MembraneChange<Number>
     change(const Vector3<Number> &d, const Number &g1, const Number &g2) const
     {

@@ -92,7 +92,7 @@ namespace Exemplar
     void
     update_rotations(const Vector &positions) override;
 
-    /// Of a vertex that fitted to its triangles; slope nodes do not turn.
+    /// A vertex turns by the rotation that fits its triangles best; slope nodes do not turn.
     void
     node_rotations(std::vector<float> &rotations) override;
 
@@ -165,6 +165,7 @@ namespace Exemplar
       std::array<int, max_entries> positions{}; ///< of the lower triangle by rows; -1: held
     };
 
+    /// A hinge at the positions of find_strains().
     struct HingeState
     {
       HingeForm<double> gradient;
@@ -172,6 +173,7 @@ namespace Exemplar
       double            moment_scale = 0.;
     };
 
+    /// A triangle at these, and its stresses of find_stresses().
     struct TriangleState
     {
       MembraneStrain<double> membrane = { { { 1., 0., 0. } }, { { 0., 1., 0. } } };
@@ -208,10 +210,14 @@ namespace Exemplar
     void
     add_energies(unsigned int triangle, ElasticSums &sums) const;
 
+    /// The forces at the vertices of a triangle of the first three stresses, over its volume.
+    std::array<Vector3<double>, 3>
+    membrane_forces(unsigned int triangle, const Vector &positions) const;
+
     /// Add the forces at the vertices of the membrane's stress and those at slopes, and add to the scales
     /// of the hinges' moments.
     void
-    add_forces(unsigned int triangle, ElasticSums &sums);
+    add_forces(unsigned int triangle, const Vector &positions, ElasticSums &sums);
 
     /// Add those of the hinges' moments.
     void
@@ -234,7 +240,16 @@ namespace Exemplar
                  TriangleTangent &to) const;
 
     void
-    find_strain_slopes(unsigned int triangle, TriangleTangent &to) const;
+    find_strain_slopes(unsigned int triangle, const Vector &positions, TriangleTangent &to) const;
+
+    void
+    find_stretch_slopes(unsigned int triangle, const Vector &positions, TriangleTangent &to) const;
+
+    void
+    add_stretch_geometry(unsigned int     triangle,
+                         bool             convex,
+                         const Vector    &positions,
+                         TriangleTangent &to) const;
 
     void
     add_membrane_geometry(unsigned int triangle, bool convex, TriangleTangent &to) const;

@@ -106,7 +106,8 @@ namespace Exemplar
         out << "</PointData>\n<CellData>\n";
         write_scalars(out, "strain_energy_density", frame.cells.strain_energy_density);
         write_scalars(out, name_of_ratio, frame.cells.det_F);
-        write_scalars(out, "von_mises_stress", frame.cells.von_mises_stress);
+        if (!frame.cells.von_mises_stress.empty())
+          write_scalars(out, "von_mises_stress", frame.cells.von_mises_stress);
         if (!frame.cells.plastic_strain.empty())
           write_scalars(out, "plastic_strain", frame.cells.plastic_strain);
         if (frame.space_error && frame.space_error->failure.empty())

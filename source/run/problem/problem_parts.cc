@@ -92,11 +92,13 @@ namespace Exemplar
   namespace
   {
     std::vector<ShellSection>
-    sections_of(const std::vector<double> &thicknesses, const Material &material)
+    sections_of(const std::vector<double> &thicknesses,
+                const Material            &material,
+                const ShellKind            kind)
     {
       std::vector<ShellSection> sections;
       for (unsigned int cell = 0; cell < thicknesses.size(); ++cell)
-        sections.push_back({ thicknesses[cell], shell_elasticity(material, cell) });
+        sections.push_back({ thicknesses[cell], shell_elasticity(material, cell, kind) });
       return sections;
     }
   } // namespace
@@ -104,9 +106,10 @@ namespace Exemplar
   Body::Body(const SceneParameters &parameters, BodyInputs &inputs)
       : mesh(std::move(inputs.mesh)),
         material(make_material(parameters.examples, std::move(inputs.fields.material))),
-        fe_space(mesh.is_shell() ? FESpace(mesh,
-                                           sections_of(inputs.fields.thicknesses, material),
-                                           parameters.model.shell == ShellKind::plate)
+        fe_space(mesh.is_shell() ? FESpace(
+                     mesh,
+                     sections_of(inputs.fields.thicknesses, material, parameters.model.shell),
+                     parameters.model.shell)
                                  : FESpace(mesh, parameters.model.element)),
         patches(inputs.fields.patches, fe_space, material),
         cell_material(patches.rest_of(material)), made(inputs.undivided.made),

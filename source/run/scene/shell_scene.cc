@@ -61,18 +61,24 @@ namespace Exemplar
                            "what the "
                            "sheet measures, 0.001 for a millimetre." } });
         });
+    refuse({ { !is_shell && material.volume_stiffness > 0.,
+               "Material/Volume stiffness is of shells. Set Mesh/Kind = shell, or remove it." } });
     if (!is_shell)
       return;
     const std::string solid = key_of_solids(*this), key = "Mesh/Kind = shell: ";
     refuse(
         { { !solid.empty(),
             key + solid + " is of bodies with a volume. Remove it, or set Mesh/Kind = solid." },
+          { mesh.n_cells != MeshParameters().n_cells || mesh.repair,
+            key
+                + "Mesh/Cells and Repair fill a surface with cells. Remove them, or set Mesh/Kind "
+                  "= solid." },
           { mesh.generator != MeshGenerator::none,
             key
                 + "Mesh/Generator makes tetrahedra. Give a surface or a .msh of triangles as "
                   "Mesh/File." },
-          { model.shell == ShellKind::hinges,
-            key + "Model/Shell = hinges is not there yet. Leave it at plate, which converges." },
+          { material.volume_stiffness > 0.,
+            key + "Material/Volume stiffness is not there yet. Set it to 0." },
           { material.is_painted(), key
                                        + "painted maps of Material are not for shells yet. Give "
                                          "regions their constants instead." },
