@@ -17,11 +17,37 @@ namespace Exemplar
     follow_parameters();
   }
 
+  void
+  BodyContactTerm::follow_parameters()
+  {
+    found = {};
+    TouchingTerm::follow_parameters();
+  }
+
+  template <typename Visit>
+  void
+  BodyContactTerm::visit_pairs(const Vector &positions,
+                               const double  range,
+                               const Visit  &visit) const
+  {
+    if (found.positions.size() != positions.size() || range > found.range
+        || !std::equal(positions.begin(), positions.end(), found.positions.begin()))
+    {
+      found.positions = positions;
+      found.range     = range;
+      found.touches.clear();
+      search().append(positions, range, found.touches);
+    }
+    for (const BodyTouch &touch : found.touches)
+      if (touch.gap.distance < range * touch.gap.width)
+        visit(touch);
+  }
+
   std::vector<BodyTouch>
   BodyContactTerm::touches(const Vector &positions, const double range) const
   {
     std::vector<BodyTouch> result;
-    search().append(positions, range, result);
+    visit_pairs(positions, range, [&](const BodyTouch &touch) { result.push_back(touch); });
     return result;
   }
 
@@ -35,8 +61,7 @@ namespace Exemplar
         for (unsigned int j = 0; j < i; ++j)
           result.push_back(std::minmax({ gap.nodes[i], gap.nodes[j] }));
     };
-    for (const BodyTouch &touch : touches(positions))
-      add(touch.gap);
+    visit_pairs(positions, 1., [&](const BodyTouch &touch) { add(touch.gap); });
     for (const Rubbing &at : step.rubbing)
       add(at.gap);
     std::sort(result.begin(), result.end());
@@ -87,6 +112,7 @@ namespace Exemplar
   BodyContactTerm::begin_step(const State &at, const double new_step_size)
   {
     step           = {};
+    found          = {}; // pairs may have other widths than before
     step.size      = new_step_size;
     step.has_begun = true;
     if (contacts.friction != 0.)
@@ -98,10 +124,13 @@ namespace Exemplar
   {
     if (contacts.friction == 0. || !step.has_begun || step.n_renewals > max_renewals)
       return TermChange::none;
-    std::vector<Rubbing> fresh;
-    for (const BodyTouch &touch : touches(at.positions)) // in the order of keys
-      if (const auto found = rubbing_of(touch, touch.pair.key(), contacts.friction))
-        fresh.push_back(*found);
+    std::vector<Rubbing> fresh; // in the order of keys
+    visit_pairs(at.positions, 1.,
+                [&](const BodyTouch &touch)
+                {
+                  if (const auto rubs = rubbing_of(touch, touch.pair.key(), contacts.friction))
+                    fresh.push_back(*rubs);
+                });
     const auto [greatest, change] = force_and_change_of(fresh, step.rubbing);
     if (change <= lag_tolerance * greatest)
       return TermChange::none;
@@ -184,6 +213,7 @@ namespace Exemplar
   BodyContactTerm::memory_consumption() const
   {
     return memory_of_touching() + kept.memory_consumption()
+           + found.touches.capacity() * sizeof(BodyTouch) + found.positions.memory_consumption()
            + contacts.own_widths.size() * 4 * sizeof(double);
   }
 } // namespace Exemplar

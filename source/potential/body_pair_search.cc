@@ -11,6 +11,7 @@ namespace Exemplar
   {
     /// Widths by which more pairs are kept than are asked for, and up to which a search is kept at all.
     constexpr double skin_of_body = 1., greatest_kept_reach_of_body = 2.;
+    constexpr double more_than_rounding = 1. + 1e-6;
 
     template <typename Nodes>
     AxisBox
@@ -63,7 +64,7 @@ namespace Exemplar
       if (!contacts.may_meet(surface, pair))
         return;
       if (const double width = contacts.width_of(pair); width > 0.)
-        found.push_back({ pair, width });
+        found.push_back({ pair, width, 0. });
     };
     const BoxGrid triangles = grid_of(surface.triangles, places, ends);
     for (unsigned int i = 0; i < surface.nodes.size(); ++i)
@@ -92,25 +93,29 @@ namespace Exemplar
     AxisBox ways;
     for (const ContactSurface::Node &at : surface.nodes)
       ways.add(others[at.node] - places[at.node]);
-    const SpaceVector3 extent = ways.high - ways.low;
-    return std::max({ extent[0], extent[1], extent[2] });
+    return (ways.high - ways.low).norm();
   }
 
-  bool
+  std::optional<double>
   BodyPairSearch::keep(const Places &places, const Places &ends, const double reach) const
   {
-    if (kept.places.size() == places.size()
-        && reach + std::max(farthest_apart(kept.places, places), farthest_apart(kept.places, ends))
-               <= kept.reach)
-      return true;
-    const double all_of_it = reach + farthest_apart(places, ends);
-    if (!(all_of_it <= greatest_kept_reach_of_body * contacts.width))
-      return false;
-    kept.places                         = places;
-    kept.reach                          = all_of_it + skin_of_body * contacts.width;
-    constexpr double more_than_rounding = 1. + 1e-6;
-    kept.candidates                     = search(places, places, more_than_rounding * kept.reach);
-    return true;
+    if (kept.places.size() == places.size())
+    {
+      const double apart
+          = std::max(farthest_apart(kept.places, places), farthest_apart(kept.places, ends));
+      if (reach + apart <= kept.reach)
+        return apart;
+    }
+    const double apart = farthest_apart(places, ends);
+    if (!(reach + apart <= greatest_kept_reach_of_body * contacts.width))
+      return {};
+    kept.places     = places;
+    kept.reach      = reach + apart + skin_of_body * contacts.width;
+    kept.candidates = search(places, places, more_than_rounding * kept.reach);
+    for (KeptBodyPairs::Candidate &candidate : kept.candidates)
+      candidate.distance
+          = distance(candidate.pair, corners(candidate.pair, places).places).distance;
+    return apart;
   }
 
   template <typename Visit>
@@ -120,14 +125,18 @@ namespace Exemplar
                                    const double  reach,
                                    const Visit  &visit) const
   {
-    if (!keep(places, ends, reach))
+    const std::optional<double> apart = keep(places, ends, reach);
+    if (!apart)
     {
       for (const KeptBodyPairs::Candidate &candidate : search(places, ends, reach))
         visit(candidate);
       return;
     }
+    const double reach_then = more_than_rounding * (reach + *apart);
     for (const KeptBodyPairs::Candidate &candidate : kept.candidates)
     {
+      if (candidate.distance > reach_then)
+        continue;
       const BodyPairCorners x = corners(candidate.pair, places);
       AxisBox               first, second;
       for (unsigned int i = 0; i < 4; ++i)

@@ -94,6 +94,16 @@ namespace Exemplar
       gaps.push_back(gap_of(at, positions));
   }
 
+  ContactGradient
+  TouchingTerm::gradient_of_friction(const Rubbing &at, const SpaceVector3 &slip) const
+  {
+    const SpaceVector3 force = slip_energy(at).force_by_slip(slip.norm()) * slip;
+    ContactGradient    gradient{};
+    for (unsigned int i = 0; i < at.gap.n_nodes; ++i)
+      gradient[i] = at.gap.coefficients[i] * force;
+    return gradient;
+  }
+
   void
   TouchingTerm::visit_gradients(const Vector &positions, const VisitGradient &visit) const
   {
@@ -104,31 +114,33 @@ namespace Exemplar
                       visit(touch.obstacle, touch.gap, gradient_of(touch));
                   });
     for (const Rubbing &at : rubbing_step().rubbing)
-    {
-      const SpaceVector3 u     = slip(at, positions);
-      const SpaceVector3 force = slip_energy(at).force_by_slip(u.norm()) * u;
-      ContactGradient    gradient;
-      for (unsigned int i = 0; i < at.gap.n_nodes; ++i)
-        gradient[i] = at.gap.coefficients[i] * force;
-      visit(at.obstacle, at.gap, gradient);
-    }
+      visit(at.obstacle, at.gap, gradient_of_friction(at, slip(at, positions)));
   }
 
   void
   TouchingTerm::add(const TermPoint &at, ElasticSums &sums)
   {
-    visit_touches(at.positions, 1., [&](const Touch &touch) { sums->energy += energy_of(touch); });
+    const auto add_gradient = [&](const Gap &gap, const ContactGradient &gradient)
+    {
+      for (unsigned int i = 0; i < gap.n_nodes; ++i)
+      {
+        add_to(sums->gradient, gap.nodes[i], gradient[i]);
+        sums->force_scale[gap.nodes[i]] += gradient[i].norm();
+      }
+    };
+    visit_touches(at.positions, 1.,
+                  [&](const Touch &touch)
+                  {
+                    sums->energy += energy_of(touch);
+                    if (touch.gap.distance > 0.) // an infinite energy has no force
+                      add_gradient(touch.gap, gradient_of(touch));
+                  });
     for (const Rubbing &rub : rubbing_step().rubbing)
-      sums->energy += slip_energy(rub).value(slip(rub, at.positions).norm());
-    visit_gradients(at.positions,
-                    [&](unsigned int, const Gap &gap, const ContactGradient &gradient)
-                    {
-                      for (unsigned int i = 0; i < gap.n_nodes; ++i)
-                      {
-                        add_to(sums->gradient, gap.nodes[i], gradient[i]);
-                        sums->force_scale[gap.nodes[i]] += gradient[i].norm();
-                      }
-                    });
+    {
+      const SpaceVector3 u = slip(rub, at.positions);
+      sums->energy += slip_energy(rub).value(u.norm());
+      add_gradient(rub.gap, gradient_of_friction(rub, u));
+    }
   }
 
   void

@@ -28,6 +28,9 @@ namespace Exemplar
     }
 
     void
+    follow_parameters() override;
+
+    void
     begin_step(const State &start, double step_size) override;
 
     TermChange
@@ -99,9 +102,21 @@ namespace Exemplar
     void
     visit_touches(const Vector &positions, double range, const VisitTouch &visit) const override
     {
-      for (const BodyTouch &touch : touches(positions, range))
-        visit(touch);
+      visit_pairs(positions, range, visit);
     }
+
+    /// Call visit(touch) for the pairs nearer than `range` times their width, in the order of their keys.
+    template <typename Visit>
+    void
+    visit_pairs(const Vector &positions, double range, const Visit &visit) const;
+
+    /// Pairs that were found last, which are asked for again and again at the same place.
+    struct Found
+    {
+      Vector                 positions; ///< empty: none
+      double                 range = 0.;
+      std::vector<BodyTouch> touches;
+    };
 
     const RubbingStep &
     rubbing_step() const override
@@ -127,6 +142,7 @@ namespace Exemplar
     const BodyContacts   &contacts;
     RubbingStep           step;
     mutable KeptBodyPairs kept;      ///< no result depends on it
+    mutable Found         found;     ///< nor on it
     Reached               reached;   ///< where a step ended
     double                heat = 0.; ///< of friction, since the beginning [J]
   };

@@ -7,6 +7,7 @@
 #include <exemplar/obstacles/box_tree.h>
 #include <exemplar/potential/touch.h>
 
+#include <optional>
 #include <vector>
 
 namespace Exemplar
@@ -25,7 +26,8 @@ namespace Exemplar
     struct Candidate
     {
       BodyPair pair;
-      double   width; ///< from where it pushes [m]
+      double   width;         ///< from where it pushes [m]
+      double   distance = 0.; ///< then [m]
     };
 
     std::vector<Candidate> candidates;
@@ -103,11 +105,12 @@ namespace Exemplar
                      double        reach,
                      const Visit  &visit) const;
 
-    /// Whether all of them are among the kept ones, which may be found anew for that.
-    bool
+    /// Keep all of them, which may be found anew for that; by how much their distances on the way can be other than then [m]. Empty: they
+    /// would be too many.
+    std::optional<double>
     keep(const Places &places, const Places &ends, double reach) const;
 
-    /// How far nodes have gone beside each other along an axis, at most [m].
+    /// How far nodes have gone beside each other, at most [m].
     double
     farthest_apart(const Places &places, const Places &others) const;
 

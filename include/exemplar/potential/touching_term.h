@@ -121,6 +121,10 @@ namespace Exemplar
     void
     remember_slip_base(const State &at, RubbingStep &step) const;
 
+    /// What rubs slips from where the step counts it.
+    ContactGradient
+    gradient_of_friction(const Rubbing &at, const SpaceVector3 &slip) const;
+
     /// Call visit for all barriers that are not closed, whose infinite energy has no force, and for all friction.
     void
     visit_gradients(const Vector &positions, const VisitGradient &visit) const;
