@@ -70,6 +70,20 @@ namespace Exemplar
   }
 
   void
+  BodyContactTerm::append_gaps_along(const Vector     &positions,
+                                     const Vector     &displacement,
+                                     const double      reach,
+                                     std::vector<Gap> &gaps) const
+  {
+    std::vector<BodyTouch> near;
+    search().append_along(positions, displacement, reach, near);
+    for (const BodyTouch &touch : near)
+      if (touch.gap.stiffness > 0.)
+        gaps.push_back(touch.gap);
+    append_gaps_of_friction(positions, gaps);
+  }
+
+  void
   BodyContactTerm::append_gaps_of_way(const double /*now*/,
                                       const double /*to_time*/,
                                       const Vector     &from,

@@ -90,6 +90,12 @@ namespace Exemplar
                     if (touch.gap.stiffness > 0.)
                       gaps.push_back(touch.gap);
                   });
+    append_gaps_of_friction(positions, gaps);
+  }
+
+  void
+  TouchingTerm::append_gaps_of_friction(const Vector &positions, std::vector<Gap> &gaps) const
+  {
     for (const Rubbing &at : rubbing_step().rubbing)
       gaps.push_back(gap_of(at, positions));
   }

@@ -231,8 +231,8 @@ namespace Exemplar
     const Exchange &exchange = potential.get_free_dofs().exchange();
     Vector          moved    = displacement(direction.step);
     const double    reach    = std::sqrt(3.) * exchange.max(max_entry(moved.begin(), moved.end()));
-    GapEnergies     near(
-            potential.gaps(positions, 1. + std::min(reach / potential.gap_width(), greatest_reach)));
+    GapEnergies     near(potential.gaps_along(positions, moved,
+                                              std::min(reach, greatest_reach * potential.gap_width())));
     const std::vector<Gap> &gaps = near.get_gaps();
     std::vector<Gap>        taken;
     std::vector<char>       is_taken(gaps.size(), 0);

@@ -11,6 +11,7 @@ import argparse
 import collections
 import concurrent.futures
 import csv
+import itertools
 import math
 import pathlib
 import random
@@ -61,38 +62,54 @@ def place_of(body):
     return place
 
 
-def reach_of(kind, size):
-    return 0.5 * np.linalg.norm(size) if kind != "horseshoe" else 0.4
+def farthest_along(body, direction):
+    place = place_of(body)
+    return max((place(*(f * s for f, s in zip(part, body.size))) - body.middle) @ direction
+               for part in itertools.product(np.linspace(0, 1, 33), (0, 1), (0, 1)))
 
 
 def bodies_of(rng, speed, step):
-    """The first rests at the origin, others come towards it from places around."""
-    bodies, taken = [], []
+    """The first rests at the origin, others come towards it from places around, where a plane is between any two of them."""
+    bodies = []
     for i in range(rng.choice([2, 2, 2, 3, 4])):
         kind = rng.choice(list(KINDS))
         size, choices = KINDS[kind]
-        reach = reach_of(kind, size)
-        toward = np.array([rng.gauss(0, 1) for _ in range(3)])
-        toward /= np.linalg.norm(toward)
-        gap = min(0.4 * speed * step * STEPS, 0.5) * rng.random() + 0.02
-        middle = np.zeros(3) if i == 0 else -toward * (taken[0][1] + reach + gap)
-        while any(np.linalg.norm(middle - other) < reach + its + 0.01 for other, its in taken):
-            middle = middle * 1.1
-        aim = np.array([rng.uniform(-.1, .1) for _ in range(3)])
-        velocity = np.zeros(3) if i == 0 else speed * (aim - middle) / np.linalg.norm(aim - middle)
-        bodies.append(Body(kind, size, rng.choice(choices), random_turn(rng), middle, velocity))
-        taken.append((middle, reach))
+        body = Body(kind, size, rng.choice(choices), random_turn(rng), np.zeros(3), np.zeros(3))
+        if i > 0:
+            toward = np.array([rng.gauss(0, 1) for _ in range(3)])
+            toward /= np.linalg.norm(toward)
+            gap = min(0.2 * speed * step * STEPS, 0.5) * rng.random() + 0.01
+            away = farthest_along(bodies[0], -toward) + farthest_along(body, toward) + gap
+            aim = np.array([rng.uniform(-.05, .05) for _ in range(3)])
+            while any(not are_apart(body._replace(middle=-away * toward), other) for other in bodies):
+                away *= 1.1
+            body = body._replace(middle=-away * toward, velocity=speed * (aim + away * toward) / np.linalg.norm(aim + away * toward))
+        bodies.append(body)
     return bodies
 
 
+def are_apart(body, other):
+    between = body.middle - other.middle
+    size = np.linalg.norm(between)
+    return size > 0 and farthest_along(body, -between / size) + farthest_along(other, between / size) + 0.005 < size
+
+
 def velocity_formulas(bodies):
-    """That of the body whose middle is nearest: by the spheres around all, which are apart."""
+    """That of the body behind the planes between it and all others."""
+    def is_behind(body):
+        sides = []
+        for other in bodies:
+            if other is not body:
+                normal = (body.middle - other.middle) / np.linalg.norm(body.middle - other.middle)
+                far = 0.5 * (body.middle @ normal - farthest_along(body, -normal) + other.middle @ normal + farthest_along(other, normal))
+                sides.append("+".join(f"({n:.9g})*{x}" for n, x in zip(normal, "xyz")) + f" > {far:.9g}")
+        return " && ".join(f"({side})" for side in sides)
+
     formulas = []
     for c in range(3):
         text = "0"
         for body in bodies[1:]:
-            square = "+".join(f"({x}-({m:.9g}))^2" for x, m in zip("xyz", body.middle))
-            text = f"({square} < {(reach_of(body.kind, body.size) + 0.005) ** 2:.9g} ? {body.velocity[c]:.9g} : {text})"
+            text = f"({is_behind(body)} ? {body.velocity[c]:.9g} : {text})"
         formulas.append(text)
     return "; ".join(formulas)
 
@@ -101,20 +118,21 @@ def scene(number, seed, directory):
     rng = random.Random(f"pairs {seed} {number}")
     young = 10 ** rng.uniform(3, 10)
     speed = min(10 ** rng.uniform(-1, 2), 2 * math.sqrt(young / DENSITY))
-    step = float(f"{min(10 ** rng.uniform(-4, -1), 1. / speed):.6g}")
+    step = float(f"{min(10 ** rng.uniform(-.7, .3) / (speed * STEPS), .1):.6g}")  # of a way from .2 to 2 m
     bodies = bodies_of(rng, speed, step)
-    _, cells, _ = write_boxes(directory / "pieces.msh",
+    _, cells, owners = write_boxes(directory / "pieces.msh",
                                    *(Box((0, 0, 0), body.size, body.n, place_of(body)) for body in bodies))
     method = rng.choice(["quasi newton", "quasi newton", "quasi newton", "newton"])
     element = rng.choice(["P1"] * 7 + ["P2"]) if len(cells) < 1000 else "P1"
+    also = rng.choice(["Self", "Bodies"])
     keys = {"Scene": "dynamic", "Mesh/File": "pieces.msh", "Model/Element": element, "Material/Young's modulus": f"{young:.6g}",
             "Material/Poisson's ratio": "0.4", "Material/Density": str(DENSITY), "Initial/Velocity": velocity_formulas(bodies),
-            f"Contact/{rng.choice(['Self', 'Bodies'])}": "true", "Contact/Friction": f"{rng.choice([0, 0, .1, .5, 1.]):g}",
+            f"Contact/{also}": "true", "Contact/Friction": f"{rng.choice([0, 0, .1, .5, 1.]):g}",
             "Time/Step": f"{step:.6g}", "Time/End": f"{step * STEPS:.9g}", "Solver/Method": method, "Solver/Maximum iterations": "400",
             "Output/Formats": "vtu", "Output/Every": "1"}
     name = f"{'+'.join(body.kind for body in bodies)} {len(cells)} cells {element} {method} E {young:.1e} v {speed:.2g} h {step:.1e} " \
            f"mu {keys['Contact/Friction']}"
-    return name, keys, np.array(cells)
+    return f"{also} {name}", keys, np.array(cells), None if also == "Self" else owners
 
 
 def flat_triangles(cells):
@@ -130,14 +148,17 @@ def flat_triangles(cells):
     return np.array(flat)
 
 
-def crossings_of_frames(directory, n_cells):
-    """How many edges pass through triangles, in all frames, and the number of frames."""
+def crossings_of_frames(directory, cells, owners):
+    """How many edges pass through triangles, of another piece if there are owners of nodes, in all frames; the number of frames."""
     n, triangles, files = 0, None, sorted(directory.glob("frame_*[0-9].vtu"))
     for file in files:
         arrays, n_points, _ = read_vtu(file)
         if triangles is None:
-            triangles = flat_triangles(np.array(arrays["Cells", "connectivity"]).reshape(n_cells, -1))
-        n += len(crossings(np.array(arrays["Points", "Points"]).reshape(n_points, 3), triangles))
+            of_frame = np.array(arrays["Cells", "connectivity"]).reshape(len(cells), -1)
+            triangles = flat_triangles(of_frame)
+            piece = {node: owners[own[0]] for cell, own in zip(of_frame, cells) for node in cell} if owners else None
+        n += sum(piece is None or piece[edge[0]] != piece[triangle[0]]
+                 for edge, triangle in crossings(np.array(arrays["Points", "Points"]).reshape(n_points, 3), triangles))
     return n, len(files)
 
 
@@ -153,7 +174,7 @@ def gain_and_touched(directory):
 
 def run(number, arguments):
     directory = pathlib.Path(tempfile.mkdtemp(prefix=f"pair{number}_", dir=arguments.directory and pathlib.Path(arguments.directory).resolve()))
-    name, keys, cells = scene(number, arguments.seed, directory)
+    name, keys, cells, owners = scene(number, arguments.seed, directory)
     write(keys, directory / "scene.prm")
     try:
         done = subprocess.run([arguments.exemplar, "scene.prm", "--output", "out", "--quiet", "--threads", "1"], cwd=directory,
@@ -161,7 +182,7 @@ def run(number, arguments):
         status, text = done.returncode, done.stderr.strip()
     except subprocess.TimeoutExpired:
         status, text = "timeout", ""
-    crossed, n_frames = crossings_of_frames(directory / "out", len(cells))
+    crossed, n_frames = crossings_of_frames(directory / "out", cells, owners)
     gained, touched = gain_and_touched(directory / "out")
     bad = status != 0 or crossed > 0 or n_frames != STEPS + 1 or gained > GAIN
     if not bad or not arguments.keep:

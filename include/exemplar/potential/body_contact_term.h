@@ -55,6 +55,12 @@ namespace Exemplar
     couplings_of_gaps(const Vector &positions) const override;
 
     void
+    append_gaps_along(const Vector     &positions,
+                      const Vector     &displacement,
+                      double            reach,
+                      std::vector<Gap> &gaps) const override;
+
+    void
     append_gaps_of_way(double            now,
                        double            to_time,
                        const Vector     &from,

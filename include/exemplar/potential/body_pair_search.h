@@ -64,6 +64,14 @@ namespace Exemplar
     void
     append(const Vector &positions, double range, std::vector<BodyTouch> &touches) const;
 
+    /// Append the pairs with d < width, and those that nodes may bring there that go as far beside each other as by this displacement, but
+    /// not farther than `reach` [m].
+    void
+    append_along(const Vector           &positions,
+                 const Vector           &displacement,
+                 double                  reach,
+                 std::vector<BodyTouch> &touches) const;
+
     /// How far a displacement may be gone.
     struct Limit
     {
@@ -133,6 +141,10 @@ namespace Exemplar
     /// k without the part of almost parallel edges [N].
     double
     full_stiffness(const BodyPair &pair) const;
+
+    /// Which nodes, on these ways, are in the box around another piece and `reach`; all, if pieces may meet themselves.
+    std::vector<char>
+    within_reach_of_others(const Places &places, const Places &ends, double reach) const;
 
     const ContactSurface &surface;
     const BodyContacts   &contacts;

@@ -113,6 +113,10 @@ namespace Exemplar
     double
     heat_of_all(const Vector &positions) const;
 
+    /// Append what the models of solvers know of friction.
+    void
+    append_gaps_of_friction(const Vector &positions, std::vector<Gap> &gaps) const;
+
     /// What would rub at a touch, if anything: without what the obstacle adds.
     static std::optional<Rubbing>
     rubbing_of(const Touch &touch, PairKey key, double coefficient);
