@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/base/words.h>
 #include <exemplar/obstacles/contact_parameters.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Exemplar
 {
+  namespace
+  {
+    constexpr std::size_t max_left_out = 64; ///< selections, of which a node has a bit each
+  }
+
   void
   check_length(const std::string &text, const std::string &key, const std::string &unit)
   {
@@ -46,6 +53,11 @@ namespace Exemplar
              "Speed [m/s] from which friction is that of a sliding contact: what sticks creeps "
              "below it; "
              "auto: 1e-3 of the largest piece's diameter a second.");
+    keys.add(
+        "Leave out", leave_out,
+        "Parts of the surface that never touch each other, as an eye and its socket: selections "
+        "as in Handles, separated by semicolons. What lies in one does not meet what lies in "
+        "another one; parts of a single selection do not meet each other. Empty: none.");
     keys.leave_subsection();
   }
 
@@ -57,5 +69,37 @@ namespace Exemplar
     if (!(friction >= 0.))
       throw UserError("Contact/Friction = " + shortest_text(friction)
                       + " is not allowed. Allowed: 0 or more.");
+    if (leave_out.empty())
+      return;
+    const std::vector<std::string> texts = split_trimmed(leave_out, ';');
+    if (std::count(texts.begin(), texts.end(), "") > 0)
+      throw UserError("Contact/Leave out = '" + leave_out
+                      + "' has a selection without a word. Allowed: selections as in Handles, "
+                        "separated by semicolons.");
+    if (texts.size() > max_left_out)
+      throw UserError("Contact/Leave out has " + std::to_string(texts.size())
+                      + " selections. Allowed: " + std::to_string(max_left_out) + " at most.");
+  }
+
+  std::vector<std::pair<Selection, std::string>>
+  ContactParameters::selections() const
+  {
+    std::vector<std::pair<Selection, std::string>> all;
+    if (empty() || leave_out.empty())
+      return all;
+    for (const std::string &text : split_trimmed(leave_out, ';'))
+      all.emplace_back(Selection{ text }, "Contact/Leave out");
+    return all;
+  }
+
+  std::string
+  ContactParameters::absolute_leave_out(const std::string           &text,
+                                        const std::filesystem::path &directory)
+  {
+    std::string result;
+    if (!text.empty())
+      for (const std::string &selection : split_trimmed(text, ';'))
+        result += (result.empty() ? "" : "; ") + Selection::absolute(selection, directory);
+    return result;
   }
 } // namespace Exemplar

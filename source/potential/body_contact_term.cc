@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/number_text.h>
-#include <exemplar/potential/barrier.h>
 #include <exemplar/potential/body_contact_term.h>
 #include <exemplar/potential/nodal_vectors.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Exemplar
 {
@@ -14,30 +11,43 @@ namespace Exemplar
                                    const ContactSurface &surface,
                                    const Material       &material,
                                    const TimeIntegrator *integrator)
-      : contacts(contacts), surface(surface), material(material), integrator(integrator),
-        least_gap(contacts.width)
+      : TouchingTerm(surface, material, integrator), contacts(contacts)
   {
+    reached.least_gap = contacts.width;
     follow_parameters();
-  }
-
-  void
-  BodyContactTerm::attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs)
-  {
-    pattern   = &new_pattern;
-    free_dofs = &new_free_dofs;
   }
 
   void
   BodyContactTerm::follow_parameters()
   {
-    surface.set_material(material);
+    found = {};
+    TouchingTerm::follow_parameters();
+  }
+
+  template <typename Visit>
+  void
+  BodyContactTerm::visit_pairs(const Vector &positions,
+                               const double  range,
+                               const Visit  &visit) const
+  {
+    if (found.positions.size() != positions.size() || range > found.range
+        || !std::equal(positions.begin(), positions.end(), found.positions.begin()))
+    {
+      found.positions = positions;
+      found.range     = range;
+      found.touches.clear();
+      search().append(positions, range, found.touches);
+    }
+    for (const BodyTouch &touch : found.touches)
+      if (touch.gap.distance < range * touch.gap.width)
+        visit(touch);
   }
 
   std::vector<BodyTouch>
   BodyContactTerm::touches(const Vector &positions, const double range) const
   {
     std::vector<BodyTouch> result;
-    search().append(positions, range, result);
+    visit_pairs(positions, range, [&](const BodyTouch &touch) { result.push_back(touch); });
     return result;
   }
 
@@ -51,8 +61,7 @@ namespace Exemplar
         for (unsigned int j = 0; j < i; ++j)
           result.push_back(std::minmax({ gap.nodes[i], gap.nodes[j] }));
     };
-    for (const BodyTouch &touch : touches(positions))
-      add(touch.gap);
+    visit_pairs(positions, 1., [&](const BodyTouch &touch) { add(touch.gap); });
     for (const Rubbing &at : step.rubbing)
       add(at.gap);
     std::sort(result.begin(), result.end());
@@ -61,25 +70,17 @@ namespace Exemplar
   }
 
   void
-  BodyContactTerm::append_gaps(const Vector     &positions,
-                               const double      range,
-                               std::vector<Gap> &gaps) const
+  BodyContactTerm::append_gaps_along(const Vector     &positions,
+                                     const Vector     &displacement,
+                                     const double      reach,
+                                     std::vector<Gap> &gaps) const
   {
-    for (const BodyTouch &touch : touches(positions, range))
+    std::vector<BodyTouch> near;
+    search().append_along(positions, displacement, reach, near);
+    for (const BodyTouch &touch : near)
       if (touch.gap.stiffness > 0.)
         gaps.push_back(touch.gap);
-    for (const Rubbing &at : step.rubbing)
-    {
-      const SlipEnergy energy = slip_energy(at);
-      Gap              gap    = at.gap;
-      gap.stiffness           = 0.; // where it rubs is not where it is nearest by now
-      gap.distance            = gap.width;
-      gap.friction            = energy.greatest;
-      gap.slip_width          = energy.e;
-      gap.friction_normal     = at.gap.normal;
-      gap.slip                = slip(at, positions);
-      gaps.push_back(gap);
-    }
+    append_gaps_of_friction(positions, gaps);
   }
 
   void
@@ -125,17 +126,11 @@ namespace Exemplar
   BodyContactTerm::begin_step(const State &at, const double new_step_size)
   {
     step           = {};
+    found          = {}; // pairs may have other widths than before
     step.size      = new_step_size;
     step.has_begun = true;
-    if (contacts.friction == 0.)
-      return;
-    step.rate = integrator != nullptr ? integrator->rate_factor() : 1. / step.size;
-    step.slip_base.reinit(at.positions.size());
-    if (integrator == nullptr)
-      step.slip_base = at.positions;
-    else
-      for (const WeightedPositions &then : integrator->history(at))
-        step.slip_base.add(then.weight, *then.positions);
+    if (contacts.friction != 0.)
+      remember_slip_base(at, step);
   }
 
   TermChange
@@ -143,17 +138,13 @@ namespace Exemplar
   {
     if (contacts.friction == 0. || !step.has_begun || step.n_renewals > max_renewals)
       return TermChange::none;
-    std::vector<Rubbing> fresh;
-    for (const BodyTouch &touch : touches(at.positions)) // in the order of keys
-      if (const Gap &gap = touch.gap; gap.distance > 0. && gap.stiffness > 0.)
-        fresh.push_back({ 0,
-                          touch.pair.key(),
-                          gap,
-                          -Barrier{ gap.stiffness, gap.width }.slope(gap.distance),
-                          contacts.friction,
-                          {},
-                          {},
-                          {} });
+    std::vector<Rubbing> fresh; // in the order of keys
+    visit_pairs(at.positions, 1.,
+                [&](const BodyTouch &touch)
+                {
+                  if (const auto rubs = rubbing_of(touch, touch.pair.key(), contacts.friction))
+                    fresh.push_back(*rubs);
+                });
     const auto [greatest, change] = force_and_change_of(fresh, step.rubbing);
     if (change <= lag_tolerance * greatest)
       return TermChange::none;
@@ -163,13 +154,13 @@ namespace Exemplar
   }
 
   SpaceVector3
-  BodyContactTerm::slip(const Rubbing &at, const Vector &positions) const
+  BodyContactTerm::motion_along(const Rubbing &at, const Vector &positions) const
   {
     SpaceVector3 u;
     for (unsigned int i = 0; i < 4; ++i)
       u += at.gap.coefficients[i]
            * (at_node(positions, at.gap.nodes[i]) - at_node(step.slip_base, at.gap.nodes[i]));
-    return u - (u * at.gap.normal) * at.gap.normal;
+    return u;
   }
 
   std::optional<double>
@@ -177,10 +168,7 @@ namespace Exemplar
   {
     if (contacts.friction == 0.)
       return {};
-    double result = 0.;
-    for (const Rubbing &at : step.rubbing) // by a velocity that lasts for the step
-      result += step.rate * step.size * slip_energy(at).heat(slip(at, end.positions).norm());
-    return result;
+    return heat_of_all(end.positions);
   }
 
   void
@@ -192,114 +180,18 @@ namespace Exemplar
   void
   BodyContactTerm::end_step(const State &end)
   {
-    barrier_energy = n_pairs = normal_force = 0.;
     heat += dissipation(end).value_or(0.);
-    least_gap = contacts.width;
-    for (const BodyTouch &touch : touches(end.positions))
-    {
-      const Gap &gap = touch.gap;
-      least_gap      = std::min(least_gap, gap.distance);
-      barrier_energy += energy_of(touch);
-      n_pairs += 1.;
-      normal_force -= Barrier{ gap.stiffness, gap.width }.slope(gap.distance);
-    }
-  }
-
-  template <typename Visit>
-  void
-  BodyContactTerm::visit_gradients(const Vector &positions, const Visit &visit) const
-  {
-    for (const BodyTouch &touch : touches(positions))
-      if (touch.gap.distance > 0.) // an infinite energy has no force
-        visit(touch.gap, gradient_of(touch));
-    for (const Rubbing &at : step.rubbing)
-    {
-      const SpaceVector3 u     = slip(at, positions);
-      const SpaceVector3 force = slip_energy(at).force_by_slip(u.norm()) * u;
-      ContactGradient    gradient;
-      for (unsigned int i = 0; i < 4; ++i)
-        gradient[i] = at.gap.coefficients[i] * force;
-      visit(at.gap, gradient);
-    }
-  }
-
-  template <typename Visit>
-  void
-  BodyContactTerm::visit_blocks(const Vector &positions,
-                                const Tangent kind,
-                                const Visit  &visit) const
-  {
-    for (const BodyTouch &touch : touches(positions))
-      if (touch.gap.distance > 0.)
-        visit(touch.gap, hessian_of(touch, kind));
-    for (const Rubbing &at : step.rubbing)
-    {
-      const auto     curvature = slip_energy(at).curvature(slip(at, positions), at.gap.normal);
-      ContactHessian blocks;
-      for (unsigned int i = 0; i < 4; ++i)
-        for (unsigned int j = 0; j < 4; ++j)
-          blocks[i][j] = at.gap.coefficients[i] * at.gap.coefficients[j] * curvature;
-      visit(at.gap, blocks);
-    }
-  }
-
-  void
-  BodyContactTerm::add(const TermPoint &at, ElasticSums &sums)
-  {
-    for (const BodyTouch &touch : touches(at.positions))
-      sums->energy += energy_of(touch);
-    for (const Rubbing &rub : step.rubbing)
-      sums->energy += slip_energy(rub).value(slip(rub, at.positions).norm());
-    visit_gradients(at.positions,
-                    [&](const Gap &gap, const ContactGradient &gradient)
-                    {
-                      for (unsigned int i = 0; i < 4; ++i)
-                      {
-                        add_to(sums->gradient, gap.nodes[i], gradient[i]);
-                        sums->force_scale[gap.nodes[i]] += gradient[i].norm();
-                      }
-                    });
-  }
-
-  void
-  BodyContactTerm::add_tangent(const TermPoint     &at,
-                               const Tangent        kind,
-                               std::vector<double> &values,
-                               std::vector<double> & /*columns*/)
-  {
-    visit_blocks(at.positions, kind,
-                 [&](const Gap &gap, const ContactHessian &blocks)
-                 { add_blocks(gap, blocks, *pattern, *free_dofs, values); });
-  }
-
-  void
-  BodyContactTerm::add_response(const TermPoint &at,
-                                const Tangent    kind,
-                                const Vector    &displacement,
-                                ElasticSums     &sums)
-  {
-    visit_blocks(at.positions, kind,
-                 [&](const Gap &gap, const ContactHessian &blocks)
-                 { add_products(gap, blocks, displacement, sums->gradient); });
-  }
-
-  double
-  BodyContactTerm::rounding_force(const Vector &positions) const
-  {
-    std::vector<Gap> gaps;
-    for (const BodyTouch &touch : touches(positions))
-      gaps.push_back(touch.gap);
-    return rounding_force_of(gaps, positions);
+    reached = reached_at(end.positions, contacts.width);
   }
 
   void
   BodyContactTerm::append_columns(const double /*energy*/,
                                   std::vector<std::pair<std::string, double>> &columns) const
   {
-    columns.emplace_back("energy_body_contact", barrier_energy);
-    columns.emplace_back("least_body_gap", least_gap);
-    columns.emplace_back("body_pairs", n_pairs);
-    columns.emplace_back("body_contact_force", normal_force);
+    columns.emplace_back("energy_body_contact", reached.barrier_energy);
+    columns.emplace_back("least_body_gap", reached.least_gap);
+    columns.emplace_back("body_pairs", reached.n_pairs);
+    columns.emplace_back("body_contact_force", reached.normal_force);
     if (contacts.friction > 0.)
       columns.emplace_back("heat_body_friction", heat);
   }
@@ -309,9 +201,9 @@ namespace Exemplar
   {
     NodalField force{ "body_contact_force", Vector(positions.size()) };
     visit_gradients(positions,
-                    [&](const Gap &gap, const ContactGradient &gradient)
+                    [&](unsigned int, const Gap &gap, const ContactGradient &gradient)
                     {
-                      for (unsigned int i = 0; i < 4; ++i)
+                      for (unsigned int i = 0; i < gap.n_nodes; ++i)
                         add_to(force.values, gap.nodes[i], -gradient[i]);
                     });
     fields.push_back(std::move(force));
@@ -320,20 +212,22 @@ namespace Exemplar
   void
   BodyContactTerm::save(boost::archive::binary_oarchive &archive) const
   {
-    archive << barrier_energy << least_gap << n_pairs << normal_force << heat;
+    archive << reached.barrier_energy << reached.least_gap << reached.n_pairs
+            << reached.normal_force << heat;
   }
 
   void
   BodyContactTerm::load(boost::archive::binary_iarchive &archive)
   {
-    archive >> barrier_energy >> least_gap >> n_pairs >> normal_force >> heat;
+    archive >> reached.barrier_energy >> reached.least_gap >> reached.n_pairs
+        >> reached.normal_force >> heat;
   }
 
   std::size_t
   BodyContactTerm::memory_consumption() const
   {
-    return surface.memory_consumption() + kept.memory_consumption()
-           + step.slip_base.memory_consumption() + step.rubbing.size() * sizeof(Rubbing)
+    return memory_of_touching() + kept.memory_consumption()
+           + found.touches.capacity() * sizeof(BodyTouch) + found.positions.memory_consumption()
            + contacts.own_widths.size() * 4 * sizeof(double);
   }
 } // namespace Exemplar

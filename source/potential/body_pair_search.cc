@@ -9,8 +9,11 @@ namespace Exemplar
 {
   namespace
   {
-    /// Widths by which more pairs are kept than are asked for, and up to which a search is kept at all.
-    constexpr double skin_of_body = 1., greatest_kept_reach_of_body = 2.;
+    /// Widths by which more pairs are kept than are asked for, and up to which a search is kept at all: a surface has many pairs with
+    /// itself.
+    constexpr double skin_of_body = 1., greatest_kept_reach_of_body = 2.,
+                     greatest_kept_reach_of_bodies = 4.;
+    constexpr double more_than_rounding            = 1. + 1e-6;
 
     template <typename Nodes>
     AxisBox
@@ -25,14 +28,44 @@ namespace Exemplar
       return box;
     }
 
+    /// The numbers of the parts with a node among `chosen`.
+    template <typename Parts>
+    std::vector<unsigned int>
+    parts_at(const Parts &parts, const std::vector<char> &chosen)
+    {
+      std::vector<unsigned int> numbers;
+      for (unsigned int i = 0; i < parts.size(); ++i)
+        if (std::any_of(parts[i].nodes.begin(), parts[i].nodes.end(),
+                        [&](const unsigned int node) { return chosen[node] != 0; }))
+          numbers.push_back(i);
+      return numbers;
+    }
+
     template <typename Parts>
     BoxGrid
-    grid_of(const Parts &parts, const Places &places, const Places &ends)
+    grid_of(const Parts                     &parts,
+            const std::vector<unsigned int> &numbers,
+            const Places                    &places,
+            const Places                    &ends)
     {
       std::vector<AxisBox> boxes;
-      for (const auto &part : parts)
-        boxes.push_back(box_on_way(part.nodes, places, ends));
+      for (const unsigned int i : numbers)
+        boxes.push_back(box_on_way(parts[i].nodes, places, ends));
       return BoxGrid(std::move(boxes));
+    }
+
+    /// How far the points of the one side of a pair go beside those of the other, at most [m].
+    double
+    way_of_pair(const BodyPairCorners &x, const std::array<SpaceVector3, 4> &ways)
+    {
+      const SpaceVector3    mean = 0.25 * (ways[0] + ways[1] + ways[2] + ways[3]);
+      std::array<double, 2> fastest{};
+      for (unsigned int i = 0; i < 4; ++i)
+      {
+        double &of_side = fastest[i < x.n_of_first ? 0 : 1];
+        of_side         = std::max(of_side, (ways[i] - mean).norm());
+      }
+      return fastest[0] + fastest[1];
     }
 
     std::array<SpaceVector3, 4>
@@ -63,27 +96,59 @@ namespace Exemplar
       if (!contacts.may_meet(surface, pair))
         return;
       if (const double width = contacts.width_of(pair); width > 0.)
-        found.push_back({ pair, width });
+        found.push_back({ pair, width, 0. });
     };
-    const BoxGrid triangles = grid_of(surface.triangles, places, ends);
+    const std::vector<char>         near          = within_reach_of_others(places, ends, reach);
+    const std::vector<unsigned int> own_triangles = parts_at(surface.triangles, near),
+                                    own_edges     = parts_at(surface.edges, near);
+    const BoxGrid triangles = grid_of(surface.triangles, own_triangles, places, ends);
     for (unsigned int i = 0; i < surface.nodes.size(); ++i)
-      triangles.visit(
-          box_on_way(std::array<unsigned int, 1>{ { surface.nodes[i].node } }, places, ends)
-              .widened(reach),
-          [&](const unsigned int t) {
-            add({ BodyPairKind::node_triangle, i, t });
-          });
-    const BoxGrid edges = grid_of(surface.edges, places, ends);
-    for (unsigned int i = 0; i < surface.edges.size(); ++i)
+      if (const unsigned int node = surface.nodes[i].node; near[node] != 0)
+        triangles.visit(
+            box_on_way(std::array<unsigned int, 1>{ { node } }, places, ends).widened(reach),
+            [&](const unsigned int t) {
+              add({ BodyPairKind::node_triangle, i, own_triangles[t] });
+            });
+    const BoxGrid edges = grid_of(surface.edges, own_edges, places, ends);
+    for (const unsigned int i : own_edges)
       edges.visit(box_on_way(surface.edges[i].nodes, places, ends).widened(reach),
                   [&](const unsigned int e)
                   {
-                    if (e > i)
-                      add({ BodyPairKind::edge_edge, i, e });
+                    if (own_edges[e] > i)
+                      add({ BodyPairKind::edge_edge, i, own_edges[e] });
                   });
     std::sort(found.begin(), found.end(),
               [](const auto &a, const auto &b) { return a.pair.key() < b.pair.key(); });
     return found;
+  }
+
+  std::vector<char>
+  BodyPairSearch::within_reach_of_others(const Places &places,
+                                         const Places &ends,
+                                         const double  reach) const
+  {
+    if (contacts.also_self)
+      return std::vector<char>(places.size(), 1);
+    std::vector<AxisBox> of_pieces;
+    for (const ContactSurface::Node &at : surface.nodes)
+    {
+      const unsigned int piece = contacts.pieces[at.node];
+      of_pieces.resize(std::max<std::size_t>(of_pieces.size(), piece + 1));
+      of_pieces[piece].add(places[at.node]);
+      of_pieces[piece].add(ends[at.node]);
+    }
+    std::vector<char> result(places.size(), 0);
+    const auto mark = [&](const auto &part) // whose box may be near though none of its nodes is
+    {
+      const AxisBox box = box_on_way(part.nodes, places, ends).widened(reach);
+      for (unsigned int piece = 0; piece < of_pieces.size(); ++piece)
+        if (piece != contacts.pieces[part.nodes[0]] && box.meets(of_pieces[piece]))
+          for (const unsigned int node : part.nodes)
+            result[node] = 1;
+    };
+    for (const ContactSurface::Triangle &triangle : surface.triangles)
+      mark(triangle);
+    return result;
   }
 
   double
@@ -92,25 +157,31 @@ namespace Exemplar
     AxisBox ways;
     for (const ContactSurface::Node &at : surface.nodes)
       ways.add(others[at.node] - places[at.node]);
-    const SpaceVector3 extent = ways.high - ways.low;
-    return std::max({ extent[0], extent[1], extent[2] });
+    return (ways.high - ways.low).norm();
   }
 
-  bool
+  std::optional<double>
   BodyPairSearch::keep(const Places &places, const Places &ends, const double reach) const
   {
-    if (kept.places.size() == places.size()
-        && reach + std::max(farthest_apart(kept.places, places), farthest_apart(kept.places, ends))
-               <= kept.reach)
-      return true;
-    const double all_of_it = reach + farthest_apart(places, ends);
-    if (!(all_of_it <= greatest_kept_reach_of_body * contacts.width))
-      return false;
-    kept.places                         = places;
-    kept.reach                          = all_of_it + skin_of_body * contacts.width;
-    constexpr double more_than_rounding = 1. + 1e-6;
-    kept.candidates                     = search(places, places, more_than_rounding * kept.reach);
-    return true;
+    if (kept.places.size() == places.size())
+    {
+      const double apart
+          = std::max(farthest_apart(kept.places, places), farthest_apart(kept.places, ends));
+      if (reach + apart <= kept.reach)
+        return apart;
+    }
+    const double apart = farthest_apart(places, ends);
+    const double most
+        = contacts.also_self ? greatest_kept_reach_of_body : greatest_kept_reach_of_bodies;
+    if (!(reach + apart <= most * contacts.width))
+      return {};
+    kept.places     = places;
+    kept.reach      = reach + apart + skin_of_body * contacts.width;
+    kept.candidates = search(places, places, more_than_rounding * kept.reach);
+    for (KeptBodyPairs::Candidate &candidate : kept.candidates)
+      candidate.distance
+          = distance(candidate.pair, corners(candidate.pair, places).places).distance;
+    return apart;
   }
 
   template <typename Visit>
@@ -120,14 +191,18 @@ namespace Exemplar
                                    const double  reach,
                                    const Visit  &visit) const
   {
-    if (!keep(places, ends, reach))
+    const std::optional<double> apart = keep(places, ends, reach);
+    if (!apart)
     {
       for (const KeptBodyPairs::Candidate &candidate : search(places, ends, reach))
         visit(candidate);
       return;
     }
+    const double reach_then = more_than_rounding * (reach + *apart);
     for (const KeptBodyPairs::Candidate &candidate : kept.candidates)
     {
+      if (candidate.distance > reach_then)
+        continue;
       const BodyPairCorners x = corners(candidate.pair, places);
       AxisBox               first, second;
       for (unsigned int i = 0; i < 4; ++i)
@@ -255,21 +330,38 @@ namespace Exemplar
                      });
   }
 
+  void
+  BodyPairSearch::append_along(const Vector           &positions,
+                               const Vector           &displacement,
+                               const double            reach,
+                               std::vector<BodyTouch> &touches) const
+  {
+    Vector end = positions;
+    end += displacement;
+    const Places places = places_of(positions);
+    Places       ends   = without_mean_way(places, places_of(end));
+    if (const double apart = farthest_apart(places, ends); apart > reach)
+      for (const ContactSurface::Node &at : surface.nodes)
+        ends[at.node] = places[at.node] + reach / apart * (ends[at.node] - places[at.node]);
+    visit_candidates(places, ends, contacts.width,
+                     [&](const KeptBodyPairs::Candidate &candidate)
+                     {
+                       const BodyPairCorners x  = corners(candidate.pair, places);
+                       const PairDistance    at = distance(candidate.pair, x.places);
+                       if (at.distance < candidate.width + way_of_pair(x, ways_of(x, ends)))
+                         touches.push_back(touch(candidate, x, at));
+                     });
+  }
+
   double
   BodyPairSearch::max_step(const BodyPair                    &pair,
                            const BodyPairCorners             &x,
                            const std::array<SpaceVector3, 4> &ways,
                            const double                       longest) const
   {
-    const SpaceVector3    mean = 0.25 * (ways[0] + ways[1] + ways[2] + ways[3]);
-    std::array<double, 2> fastest{};
-    for (unsigned int i = 0; i < 4; ++i)
-    {
-      double &of_side = fastest[i < x.n_of_first ? 0 : 1];
-      of_side         = std::max(of_side, (ways[i] - mean).norm());
-    }
-    const double now = distance(pair, x.places).distance;
-    return advance_to(now, part_left * now, fastest[0] + fastest[1], longest,
+    const SpaceVector3 mean = 0.25 * (ways[0] + ways[1] + ways[2] + ways[3]);
+    const double       now  = distance(pair, x.places).distance;
+    return advance_to(now, part_left * now, way_of_pair(x, ways), longest,
                       [&](const double part)
                       {
                         std::array<SpaceVector3, 4> moved;

@@ -291,6 +291,18 @@ namespace Exemplar
   }
 
   std::vector<Gap>
+  IncrementalPotential::gaps_along(const Vector &positions,
+                                   const Vector &displacement,
+                                   const double  reach) const
+  {
+    std::vector<Gap> all;
+    for (const auto &term : terms)
+      if (term->gap_width() > 0.)
+        term->append_gaps_along(positions, displacement, reach, all);
+    return all;
+  }
+
+  std::vector<Gap>
   IncrementalPotential::gaps_of_way(const double  now,
                                     const double  time,
                                     const Vector &from,

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/potential/barrier.h>
 #include <exemplar/potential/nodal_vectors.h>
 #include <exemplar/potential/obstacle_term.h>
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 // Friction of an obstacle term: what rubs, since when, and how far it has slipped.
@@ -14,16 +12,14 @@ namespace Exemplar
   void
   ObstacleTerm::remember_slip_base(const State &at)
   {
-    step.rate = integrator != nullptr ? integrator->rate_factor() : 1. / step.size;
+    TouchingTerm::remember_slip_base(at, step);
     const std::vector<WeightedPositions> history
         = integrator != nullptr ? integrator->history(at)
                                 : std::vector<WeightedPositions>{ { 1., &at.positions } };
-    step.slip_base.reinit(at.positions.size());
     step.earlier.clear();
     double time_then = at.time;
     for (const WeightedPositions &then : history)
     {
-      step.slip_base.add(then.weight, *then.positions);
       step.earlier.push_back({ then.weight, standing });
       for (StandingObstacle &obstacle : step.earlier.back().standing)
         obstacle.move_to(time_then);
@@ -34,28 +30,23 @@ namespace Exemplar
   std::optional<Rubbing>
   ObstacleTerm::rubbing_of(const Contact &contact) const
   {
-    const Obstacle &obstacle = obstacles.all[contact.obstacle];
-    const Gap      &gap      = contact.gap;
-    if (obstacle.friction() == 0. || !(gap.distance > 0.) || gap.stiffness == 0.)
-      return {};
-    Rubbing at{ contact.obstacle,
-                contact.pair.key(),
-                gap,
-                -Barrier{ gap.stiffness, gap.width }.slope(gap.distance),
-                obstacle.friction(),
-                standing[contact.obstacle].pose.to_own(contact.of_obstacle),
-                {},
-                contact.at.nearest.b };
+    const Obstacle        &obstacle = obstacles.all[contact.obstacle];
+    std::optional<Rubbing> at
+        = TouchingTerm::rubbing_of(contact, contact.pair.key(), obstacle.friction());
+    if (!at)
+      return at;
+    at->own_place = standing[contact.obstacle].pose.to_own(contact.of_obstacle);
+    at->shares    = contact.at.nearest.b;
     if (obstacle.deforms())
     {
       const ObstacleShape &shape = obstacle.shape();
       const unsigned int   part  = contact.pair.of_obstacle;
       if (contact.pair.kind == PairKind::node_triangle)
-        at.vertices = shape.triangles[part];
+        at->vertices = shape.triangles[part];
       else if (contact.pair.kind == PairKind::edge_edge)
-        at.vertices = { { shape.edges[part][0], shape.edges[part][1], 0 } };
+        at->vertices = { { shape.edges[part][0], shape.edges[part][1], 0 } };
       else
-        at.vertices = { { shape.points[part], 0, 0 } };
+        at->vertices = { { shape.points[part], 0, 0 } };
     }
     return at;
   }
@@ -112,28 +103,11 @@ namespace Exemplar
     return u;
   }
 
-  SpaceVector3
-  ObstacleTerm::slip(const Rubbing &at, const Vector &positions) const
-  {
-    const SpaceVector3 u = motion_along(at, positions);
-    return u - (u * at.gap.normal) * at.gap.normal;
-  }
-
   std::optional<double>
   ObstacleTerm::dissipation(const State &end) const
   {
     if (!have_friction)
       return {};
-    double heat = 0.;
-    for (const Rubbing &at : step.rubbing)
-      heat += heat_of(at, end.positions);
-    return heat;
-  }
-
-  double
-  ObstacleTerm::heat_of(const Rubbing &at, const Vector &positions) const
-  {
-    // of a velocity that lasts for the step
-    return step.rate * step.size * slip_energy(at).heat(slip(at, positions).norm());
+    return heat_of_all(end.positions);
   }
 } // namespace Exemplar

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace Exemplar
 {
@@ -20,9 +19,9 @@ namespace Exemplar
                              const Material       &material,
                              const Vector         &rest_positions,
                              const TimeIntegrator *integrator)
-      : obstacles(obstacles), surface(surface), material(material), integrator(integrator),
-        least_gap(obstacles.width)
+      : TouchingTerm(surface, material, integrator), obstacles(obstacles)
   {
+    reached.least_gap = obstacles.width;
     follow_parameters();
     if (integrator == nullptr && obstacles.free != FreeBodies::refused)
       springs.emplace(obstacles.free, obstacles.diameter, this->surface, rest_positions);
@@ -45,8 +44,7 @@ namespace Exemplar
   void
   ObstacleTerm::attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs)
   {
-    pattern   = &new_pattern;
-    free_dofs = &new_free_dofs;
+    TouchingTerm::attach(new_pattern, new_free_dofs);
     if (springs)
       springs->attach(new_pattern, new_free_dofs);
     if (!node_areas.empty())
@@ -62,7 +60,7 @@ namespace Exemplar
   {
     if (standing.size() != obstacles.all.size())
       follow_obstacles();
-    surface.set_material(material);
+    TouchingTerm::follow_parameters();
   }
 
   void
@@ -93,28 +91,6 @@ namespace Exemplar
       if (is_there(i))
         search(i).append(positions, range, result);
     return result;
-  }
-
-  void
-  ObstacleTerm::append_gaps(const Vector     &positions,
-                            const double      range,
-                            std::vector<Gap> &gaps) const
-  {
-    for (const Contact &contact : contacts(positions, range))
-      if (contact.gap.stiffness > 0.)
-        gaps.push_back(contact.gap);
-    for (const Rubbing &at : step.rubbing)
-    {
-      const SlipEnergy energy = slip_energy(at);
-      Gap              gap    = at.gap;
-      gap.stiffness           = 0.; // where it rubs is not where it is nearest by now
-      gap.distance            = gap.width;
-      gap.friction            = energy.greatest;
-      gap.slip_width          = energy.e;
-      gap.friction_normal     = at.gap.normal;
-      gap.slip                = slip(at, positions);
-      gaps.push_back(gap);
-    }
   }
 
   void
@@ -221,54 +197,29 @@ namespace Exemplar
     }
   }
 
-  template <typename Visit>
-  void
-  ObstacleTerm::visit_forces(const Vector &positions, const Visit &visit) const
-  {
-    for (const Contact &contact : contacts(positions))
-    {
-      if (!(contact.gap.distance > 0.))
-        continue;
-      const ContactGradient gradient = gradient_of(contact);
-      for (unsigned int i = 0; i < contact.gap.n_nodes; ++i)
-        visit(contact.obstacle, contact.gap.nodes[i], -gradient[i]);
-    }
-    for (const Rubbing &at : step.rubbing)
-    {
-      const SpaceVector3 u     = slip(at, positions);
-      const SpaceVector3 force = -slip_energy(at).force_by_slip(u.norm()) * u;
-      for (unsigned int i = 0; i < at.gap.n_nodes; ++i)
-        visit(at.obstacle, at.gap.nodes[i], at.gap.coefficients[i] * force);
-    }
-  }
-
   void
   ObstacleTerm::end_step(const State &end)
   {
-    barrier_energy = 0.;
-    n_pairs        = 0.;
-    least_gap      = obstacles.width;
     for (Sums &sums : sums_of)
       sums.force = sums.torque = SpaceVector3();
-    for (const Contact &contact : contacts(end.positions))
-    {
-      barrier_energy += energy_of(contact);
-      least_gap = std::min(least_gap, contact.gap.distance);
-      n_pairs += 1.;
-    }
+    reached = reached_at(end.positions, obstacles.width);
     if (springs)
       force_of_springs = springs->force(end.positions);
     for (const Rubbing &at : step.rubbing)
       sums_of[at.obstacle].heat += heat_of(at, end.positions);
-    visit_forces(
+    visit_gradients(
         end.positions,
-        [&](const unsigned int obstacle, const unsigned int node, const SpaceVector3 &force)
+        [&](const unsigned int obstacle, const Gap &gap, const ContactGradient &gradient)
         {
-          const SpaceVector3 x    = at_node(end.positions, node);
-          Sums              &sums = sums_of[obstacle];
-          sums.force += force;
-          sums.torque += dealii::cross_product_3d(x - standing[obstacle].pose.place, force);
-          sums.work += force * (x - at_node(step.start, node));
+          Sums &sums = sums_of[obstacle];
+          for (unsigned int i = 0; i < gap.n_nodes; ++i)
+          {
+            const SpaceVector3 x     = at_node(end.positions, gap.nodes[i]);
+            const SpaceVector3 force = -gradient[i];
+            sums.force += force;
+            sums.torque += dealii::cross_product_3d(x - standing[obstacle].pose.place, force);
+            sums.work += force * (x - at_node(step.start, gap.nodes[i]));
+          }
         });
   }
 
@@ -287,60 +238,18 @@ namespace Exemplar
   void
   ObstacleTerm::add(const TermPoint &at, ElasticSums &sums)
   {
-    const auto add_force = [&](const unsigned int node, const SpaceVector3 &gradient)
-    {
-      add_to(sums->gradient, node, gradient);
-      sums->force_scale[node] += gradient.norm();
-    };
-    for (const Contact &contact : contacts(at.positions))
-    {
-      sums->energy += energy_of(contact);
-      if (!(contact.gap.distance > 0.))
-        continue; // an infinite energy has no force
-      const ContactGradient gradient = gradient_of(contact);
-      for (unsigned int i = 0; i < contact.gap.n_nodes; ++i)
-        add_force(contact.gap.nodes[i], gradient[i]);
-    }
-    for (const Rubbing &rub : step.rubbing)
-    {
-      const SpaceVector3 u      = slip(rub, at.positions);
-      const SlipEnergy   energy = slip_energy(rub);
-      sums->energy += energy.value(u.norm());
-      const SpaceVector3 force = energy.force_by_slip(u.norm()) * u;
-      for (unsigned int i = 0; i < rub.gap.n_nodes; ++i)
-        add_force(rub.gap.nodes[i], rub.gap.coefficients[i] * force);
-    }
+    TouchingTerm::add(at, sums);
     if (springs)
       springs->add(at.positions, sums);
-  }
-
-  template <typename Visit>
-  void
-  ObstacleTerm::visit_blocks(const Vector &positions, const Tangent kind, const Visit &visit) const
-  {
-    for (const Contact &contact : contacts(positions))
-      if (contact.gap.distance > 0.)
-        visit(contact.gap, hessian_of(contact, kind));
-    for (const Rubbing &at : step.rubbing)
-    {
-      const auto     curvature = slip_energy(at).curvature(slip(at, positions), at.gap.normal);
-      ContactHessian blocks;
-      for (unsigned int i = 0; i < at.gap.n_nodes; ++i)
-        for (unsigned int j = 0; j < at.gap.n_nodes; ++j)
-          blocks[i][j] = at.gap.coefficients[i] * at.gap.coefficients[j] * curvature;
-      visit(at.gap, blocks);
-    }
   }
 
   void
   ObstacleTerm::add_tangent(const TermPoint     &at,
                             const Tangent        kind,
                             std::vector<double> &values,
-                            std::vector<double> & /*columns*/)
+                            std::vector<double> &columns)
   {
-    visit_blocks(at.positions, kind,
-                 [&](const Gap &gap, const ContactHessian &blocks)
-                 { add_blocks(gap, blocks, *pattern, *free_dofs, values); });
+    TouchingTerm::add_tangent(at, kind, values, columns);
     if (springs)
       springs->add_tangent(values);
   }
@@ -351,20 +260,9 @@ namespace Exemplar
                              const Vector    &displacement,
                              ElasticSums     &sums)
   {
-    visit_blocks(at.positions, kind,
-                 [&](const Gap &gap, const ContactHessian &blocks)
-                 { add_products(gap, blocks, displacement, sums->gradient); });
+    TouchingTerm::add_response(at, kind, displacement, sums);
     if (springs)
       springs->add_response(displacement, sums);
-  }
-
-  double
-  ObstacleTerm::rounding_force(const Vector &positions) const
-  {
-    std::vector<Gap> gaps;
-    for (const Contact &contact : contacts(positions))
-      gaps.push_back(contact.gap);
-    return rounding_force_of(gaps, positions);
   }
 
   // What is shown and remembered
@@ -390,9 +288,9 @@ namespace Exemplar
                                std::vector<std::pair<std::string, double>> &columns) const
   {
     const Exchange &exchange = free_dofs->exchange();
-    columns.emplace_back("energy_contact", exchange.sum(barrier_energy));
-    columns.emplace_back("least_gap", min_of_all(exchange, least_gap));
-    columns.emplace_back("contact_pairs", exchange.sum(n_pairs));
+    columns.emplace_back("energy_contact", exchange.sum(reached.barrier_energy));
+    columns.emplace_back("least_gap", min_of_all(exchange, reached.least_gap));
+    columns.emplace_back("contact_pairs", exchange.sum(reached.n_pairs));
     double heat = 0.;
     for (const ObstacleReport &obstacle : report())
     {
@@ -419,8 +317,12 @@ namespace Exemplar
   {
     NodalField force{ "contact_force", Vector(positions.size()) };
     NodalField pressure{ "contact_pressure", Vector(positions.size() / 3), 1 };
-    visit_forces(positions, [&](unsigned int, const unsigned int node, const SpaceVector3 &f)
-                 { add_to(force.values, node, f); });
+    visit_gradients(positions,
+                    [&](unsigned int, const Gap &gap, const ContactGradient &gradient)
+                    {
+                      for (unsigned int i = 0; i < gap.n_nodes; ++i)
+                        add_to(force.values, gap.nodes[i], -gradient[i]);
+                    });
     for (const Contact &contact : contacts(positions))
       if (contact.gap.distance > 0.)
         for (unsigned int i = 0; i < contact.gap.n_nodes; ++i)
@@ -434,15 +336,15 @@ namespace Exemplar
   void
   ObstacleTerm::save(boost::archive::binary_oarchive &archive) const
   {
-    archive << has_appeared << sums_of << barrier_energy << least_gap << n_pairs
-            << force_of_springs;
+    archive << has_appeared << sums_of << reached.barrier_energy << reached.least_gap
+            << reached.n_pairs << force_of_springs;
   }
 
   void
   ObstacleTerm::load(boost::archive::binary_iarchive &archive)
   {
-    archive >> has_appeared >> sums_of >> barrier_energy >> least_gap >> n_pairs
-        >> force_of_springs;
+    archive >> has_appeared >> sums_of >> reached.barrier_energy >> reached.least_gap
+        >> reached.n_pairs >> force_of_springs;
     sums_of.resize(standing.size()); // some obstacles may have been added since
     has_appeared.resize(standing.size(), 0);
   }
@@ -450,8 +352,8 @@ namespace Exemplar
   std::size_t
   ObstacleTerm::memory_consumption() const
   {
-    std::size_t bytes = surface.memory_consumption() + node_areas.size() * sizeof(double)
-                        + step.rubbing.size() * sizeof(Rubbing) + step.start.memory_consumption();
+    std::size_t bytes = memory_of_touching() + node_areas.size() * sizeof(double)
+                        + step.start.memory_consumption();
     for (const Obstacle &obstacle : obstacles.all)
       bytes += obstacle.memory_consumption();
     for (const KeptPairs &pairs : kept)

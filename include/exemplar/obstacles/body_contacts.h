@@ -36,10 +36,13 @@ namespace Exemplar
   /// Which parts of a body's surface may meet, and from where they push each other.
   struct BodyContacts
   {
-    /// Throws UserError as contact_distance().
-    BodyContacts(const ContactParameters &parameters, const Mesh &mesh, const FESpace &fe_space);
+    /// `named` has the nodes of selections by their texts. Throws UserError as contact_distance().
+    BodyContacts(const ContactParameters &parameters,
+                 const Mesh              &mesh,
+                 const FESpace           &fe_space,
+                 const NamedNodes        &named = {});
 
-    /// Whether a pair counts that is not left out: it has no node in common, and is of pieces that may meet.
+    /// Whether a pair counts unless it has no width: it has no node in common, and is of pieces and selections that may meet.
     bool
     may_meet(const ContactSurface &surface, const BodyPair &pair) const;
 
@@ -60,6 +63,21 @@ namespace Exemplar
     unsigned int              n_left_out = 0; ///< pairs
     /// Of pairs that are nearer than `width` at rest or where the body begins: half of that, or 0 for those that are left out.
     std::unordered_map<std::uint64_t, double> own_widths;
+    std::vector<std::string> left_out; ///< texts of the selections that never touch each other
+
+    /// In which of these selections a node lies, a bit each.
+    std::uint64_t
+    selections_of(const unsigned int node) const
+    {
+      return selections.empty() ? 0 : selections[node];
+    }
+
+  private:
+    /// Whether what lies in these selections never touches what lies in those.
+    bool
+    is_left_out(std::uint64_t of_one, std::uint64_t of_other) const;
+
+    std::vector<std::uint64_t> selections; ///< of the nodes; empty: there are none
   };
 } // namespace Exemplar
 

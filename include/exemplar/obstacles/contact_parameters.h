@@ -2,9 +2,12 @@
 #ifndef exemplar_contact_parameters_h
 #define exemplar_contact_parameters_h
 
+#include <exemplar/mesh/selection.h>
 #include <exemplar/prm/key_table.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace Exemplar
 {
@@ -25,13 +28,22 @@ namespace Exemplar
     double      friction   = 0.;     ///< coefficient [-]
     std::string distance   = "auto"; ///< d_hat [m]
     std::string slip_speed = "auto"; ///< [m/s]
+    std::string leave_out;           ///< selections, separated by semicolons
 
     void
     declare(KeyTable &keys);
 
-    /// Throws UserError for a distance that is no number.
+    /// Throws UserError for a distance that is no number, and for selections without a word.
     void
     check() const;
+
+    /// Those of Leave out, each with its key; none where nothing is kept apart.
+    std::vector<std::pair<Selection, std::string>>
+    selections() const;
+
+    /// The text of a Leave out with absolute paths of the selections' files.
+    static std::string
+    absolute_leave_out(const std::string &text, const std::filesystem::path &directory);
 
     bool
     empty() const

@@ -2,10 +2,8 @@
 #ifndef exemplar_body_contact_term_h
 #define exemplar_body_contact_term_h
 
-#include <exemplar/body/time_integrator.h>
 #include <exemplar/potential/body_pair_search.h>
-#include <exemplar/potential/contact_forces.h>
-#include <exemplar/potential/potential_term.h>
+#include <exemplar/potential/touching_term.h>
 
 #include <string>
 #include <vector>
@@ -14,7 +12,7 @@ namespace Exemplar
 {
   /// A barrier and friction between each pair of parts of the body's surface that are nearer than their width, doc/contact.md, in one process. It
   /// couples nodes that share no cell, in Newton's matrix alone.
-  class BodyContactTerm : public PotentialTerm
+  class BodyContactTerm : public TouchingTerm
   {
   public:
     /// `integrator` is null unless the scene is dynamic. All must outlive the term.
@@ -30,9 +28,6 @@ namespace Exemplar
     }
 
     void
-    attach(const SymmetricPattern &pattern, const FreeDofs &free_dofs) override;
-
-    void
     follow_parameters() override;
 
     void
@@ -40,12 +35,6 @@ namespace Exemplar
 
     TermChange
     renew(const TermPoint &at) override;
-
-    bool
-    has_settled() const override
-    {
-      return step.n_renewals <= max_renewals;
-    }
 
     std::optional<double>
     dissipation(const State &end) const override;
@@ -66,7 +55,10 @@ namespace Exemplar
     couplings_of_gaps(const Vector &positions) const override;
 
     void
-    append_gaps(const Vector &positions, double range, std::vector<Gap> &gaps) const override;
+    append_gaps_along(const Vector     &positions,
+                      const Vector     &displacement,
+                      double            reach,
+                      std::vector<Gap> &gaps) const override;
 
     void
     append_gaps_of_way(double            now,
@@ -76,29 +68,11 @@ namespace Exemplar
                        double            range,
                        std::vector<Gap> &gaps) override;
 
-    void
-    add(const TermPoint &at, ElasticSums &sums) override;
-
-    void
-    add_tangent(const TermPoint     &at,
-                Tangent              kind,
-                std::vector<double> &values,
-                std::vector<double> &columns) override;
-
-    void
-    add_response(const TermPoint &at,
-                 Tangent          kind,
-                 const Vector    &displacement,
-                 ElasticSums     &sums) override;
-
     double
     max_step(const Vector &positions, const Vector &displacement) const override;
 
     std::string
     limit_to(double time, const Vector &positions, const Vector &displacement) const override;
-
-    double
-    rounding_force(const Vector &positions) const override;
 
     void
     append_columns(double                                       energy,
@@ -128,40 +102,42 @@ namespace Exemplar
     std::vector<BodyTouch>
     touches(const Vector &positions, double range = 1.) const;
 
-    static constexpr unsigned int max_renewals  = 20;   ///< a step
-    static constexpr double       lag_tolerance = 1e-3; ///< part of the greatest normal force
+    static constexpr double lag_tolerance = 1e-3; ///< part of the greatest normal force
 
   private:
-    /// What of the term belongs to the step that has begun.
-    struct Step
+    void
+    visit_touches(const Vector &positions, double range, const VisitTouch &visit) const override
     {
-      double               size      = 0.;    ///< [s]
-      bool                 has_begun = false; ///< and has not been left
-      Vector               slip_base;         ///< x_star of the time scheme [m]
-      double               rate = 0.; ///< gamma of the time scheme, or one over the step [1/s]
-      std::vector<Rubbing> rubbing;   ///< since the last renewal, ascending
-      unsigned int         n_renewals = 0;
-    };
-
-    /// How the two points of what rubs have moved along each other in the step [m].
-    SpaceVector3
-    slip(const Rubbing &at, const Vector &positions) const;
-
-    SlipEnergy
-    slip_energy(const Rubbing &at) const
-    {
-      return { at.coefficient * at.force, contacts.slip_speed / step.rate };
+      visit_pairs(positions, range, visit);
     }
 
-    /// Call visit(gap, gradient) for all barriers and all friction at these positions.
+    /// Call visit(touch) for the pairs nearer than `range` times their width, in the order of their keys.
     template <typename Visit>
     void
-    visit_gradients(const Vector &positions, const Visit &visit) const;
+    visit_pairs(const Vector &positions, double range, const Visit &visit) const;
 
-    /// Call visit(gap, blocks) for their second derivatives.
-    template <typename Visit>
-    void
-    visit_blocks(const Vector &positions, Tangent kind, const Visit &visit) const;
+    /// Pairs that were found last, which are asked for again and again at the same place.
+    struct Found
+    {
+      Vector                 positions; ///< empty: none
+      double                 range = 0.;
+      std::vector<BodyTouch> touches;
+    };
+
+    const RubbingStep &
+    rubbing_step() const override
+    {
+      return step;
+    }
+
+    SpaceVector3
+    motion_along(const Rubbing &at, const Vector &positions) const override;
+
+    double
+    slip_speed() const override
+    {
+      return contacts.slip_speed;
+    }
 
     BodyPairSearch
     search() const
@@ -169,19 +145,12 @@ namespace Exemplar
       return { surface, contacts, kept };
     }
 
-    const BodyContacts     &contacts;
-    ContactSurface          surface; ///< with the shares of the material
-    const Material         &material;
-    const TimeIntegrator   *integrator;
-    Step                    step;
-    mutable KeptBodyPairs   kept;                ///< no result depends on it
-    double                  barrier_energy = 0.; ///< where a step ended [J]
-    double                  least_gap;
-    double                  n_pairs      = 0.;      ///< where a step ended
-    double                  normal_force = 0.;      ///< of all pairs [N]
-    double                  heat         = 0.;      ///< of friction, since the beginning [J]
-    const SymmetricPattern *pattern      = nullptr; ///< since attach()
-    const FreeDofs         *free_dofs    = nullptr; ///< since attach()
+    const BodyContacts   &contacts;
+    RubbingStep           step;
+    mutable KeptBodyPairs kept;      ///< no result depends on it
+    mutable Found         found;     ///< nor on it
+    Reached               reached;   ///< where a step ended
+    double                heat = 0.; ///< of friction, since the beginning [J]
   };
 } // namespace Exemplar
 

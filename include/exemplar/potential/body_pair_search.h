@@ -7,6 +7,7 @@
 #include <exemplar/obstacles/box_tree.h>
 #include <exemplar/potential/touch.h>
 
+#include <optional>
 #include <vector>
 
 namespace Exemplar
@@ -25,7 +26,8 @@ namespace Exemplar
     struct Candidate
     {
       BodyPair pair;
-      double   width; ///< from where it pushes [m]
+      double   width;         ///< from where it pushes [m]
+      double   distance = 0.; ///< then [m]
     };
 
     std::vector<Candidate> candidates;
@@ -61,6 +63,14 @@ namespace Exemplar
     /// Append the pairs with d < range times their width, in the order of their keys.
     void
     append(const Vector &positions, double range, std::vector<BodyTouch> &touches) const;
+
+    /// Append the pairs with d < width, and those that nodes may bring there that go as far beside each other as by this displacement, but
+    /// not farther than `reach` [m].
+    void
+    append_along(const Vector           &positions,
+                 const Vector           &displacement,
+                 double                  reach,
+                 std::vector<BodyTouch> &touches) const;
 
     /// How far a displacement may be gone.
     struct Limit
@@ -103,11 +113,12 @@ namespace Exemplar
                      double        reach,
                      const Visit  &visit) const;
 
-    /// Whether all of them are among the kept ones, which may be found anew for that.
-    bool
+    /// Keep all of them, which may be found anew for that; by how much their distances on the way can be other than then [m]. Empty: they
+    /// would be too many.
+    std::optional<double>
     keep(const Places &places, const Places &ends, double reach) const;
 
-    /// How far nodes have gone beside each other along an axis, at most [m].
+    /// How far nodes have gone beside each other, at most [m].
     double
     farthest_apart(const Places &places, const Places &others) const;
 
@@ -130,6 +141,10 @@ namespace Exemplar
     /// k without the part of almost parallel edges [N].
     double
     full_stiffness(const BodyPair &pair) const;
+
+    /// Which nodes, on these ways, are in the box around another piece and `reach`; all, if pieces may meet themselves.
+    std::vector<char>
+    within_reach_of_others(const Places &places, const Places &ends, double reach) const;
 
     const ContactSurface &surface;
     const BodyContacts   &contacts;

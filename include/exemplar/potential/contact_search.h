@@ -81,7 +81,6 @@ namespace Exemplar
   /// A part of the body and a part of an obstacle that are nearer than their width, in space.
   struct Contact : Touch
   {
-    unsigned int obstacle; ///< its number
     ContactPair  pair;
     SpaceVector3 of_obstacle; ///< the obstacle's point [m]
   };

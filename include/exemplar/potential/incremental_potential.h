@@ -161,6 +161,10 @@ namespace Exemplar
     std::vector<Gap>
     gaps(const Vector &positions, double range) const;
 
+    /// PotentialTerm::append_gaps_along() of all terms that have gaps, of this process.
+    std::vector<Gap>
+    gaps_along(const Vector &positions, const Vector &displacement, double reach) const;
+
     /// PotentialTerm::append_gaps_of_way() of all terms, of this process.
     std::vector<Gap>
     gaps_of_way(double now, double time, const Vector &from, const Vector &to, double range) const;

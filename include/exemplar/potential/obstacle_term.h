@@ -2,9 +2,8 @@
 #ifndef exemplar_obstacle_term_h
 #define exemplar_obstacle_term_h
 
-#include <exemplar/body/time_integrator.h>
 #include <exemplar/potential/contact_slopes.h>
-#include <exemplar/potential/potential_term.h>
+#include <exemplar/potential/touching_term.h>
 #include <exemplar/potential/weak_springs.h>
 
 #include <string>
@@ -22,7 +21,7 @@ namespace Exemplar
 
   /// What obstacles do to the body: a barrier between each pair of parts that are nearer than the width, and friction,
   /// doc/contact.md. It couples nodes of a face alone, which share a cell.
-  class ObstacleTerm : public PotentialTerm
+  class ObstacleTerm : public TouchingTerm
   {
   public:
     /// `integrator` is null unless the scene is dynamic. All must outlive the term.
@@ -49,12 +48,6 @@ namespace Exemplar
 
     TermChange
     renew(const TermPoint &at) override;
-
-    bool
-    has_settled() const override
-    {
-      return step.n_renewals <= max_renewals;
-    }
 
     std::optional<double>
     dissipation(const State &end) const override;
@@ -96,9 +89,6 @@ namespace Exemplar
     }
 
     void
-    append_gaps(const Vector &positions, double range, std::vector<Gap> &gaps) const override;
-
-    void
     append_gaps_of_way(double            now,
                        double            to_time,
                        const Vector     &from,
@@ -123,9 +113,6 @@ namespace Exemplar
 
     double
     max_step(const Vector &positions, const Vector &displacement) const override;
-
-    double
-    rounding_force(const Vector &positions) const override;
 
     void
     append_columns(double                                       energy,
@@ -162,20 +149,12 @@ namespace Exemplar
       std::vector<StandingObstacle> standing;
     };
 
-    static constexpr unsigned int max_renewals = 20; ///< a step
-
     /// What of the term belongs to the step that has begun.
-    struct Step
+    struct Step : RubbingStep
     {
-      double               size      = 0.;    ///< [s]
-      bool                 has_begun = false; ///< and has not been left
-      Vector               start;             ///< positions where it begins
-      std::vector<char>    there;             ///< whether each obstacle is there; empty: all are
-      std::vector<Earlier> earlier;           ///< empty without friction
-      Vector               slip_base;         ///< of the body: x_star of the time scheme [m]
-      double               rate = 0.; ///< gamma of the time scheme, or one over the step [1/s]
-      std::vector<Rubbing> rubbing;   ///< since the last renewal
-      unsigned int         n_renewals   = 0;
+      Vector               start;                ///< positions where it begins
+      std::vector<char>    there;                ///< whether each obstacle is there; empty: all are
+      std::vector<Earlier> earlier;              ///< empty without friction
       bool                 is_beginning = false; ///< no renewal yet
     };
 
@@ -217,16 +196,6 @@ namespace Exemplar
     ContactSearch
     search(unsigned int obstacle) const;
 
-    /// What an obstacle does at the nodes of a contact: call visit(obstacle, node, force on the body [N]).
-    template <typename Visit>
-    void
-    visit_forces(const Vector &positions, const Visit &visit) const;
-
-    /// The blocks of the tangent: visit(nodes, n, blocks).
-    template <typename Visit>
-    void
-    visit_blocks(const Vector &positions, Tangent kind, const Visit &visit) const;
-
     /// Which obstacles are there in the step that begins at this state. Throws SolverFailure for one that appears where
     /// the body is.
     void
@@ -248,22 +217,26 @@ namespace Exemplar
     void
     remember_slip_base(const State &at);
 
-    /// How the body has moved beside the obstacle [m]: its velocity relative to it, as the time scheme has it, over the scheme's rate.
-    SpaceVector3
-    motion_along(const Rubbing &at, const Vector &positions) const;
-
-    /// Its slip, the part of that along the obstacle [m].
-    SpaceVector3
-    slip(const Rubbing &at, const Vector &positions) const;
-
-    /// Of a step with this end [J].
-    double
-    heat_of(const Rubbing &at, const Vector &positions) const;
-
-    SlipEnergy
-    slip_energy(const Rubbing &at) const
+    void
+    visit_touches(const Vector &positions, double range, const VisitTouch &visit) const override
     {
-      return { at.coefficient * at.force, obstacles.slip_speed / step.rate };
+      for (const Contact &contact : contacts(positions, range))
+        visit(contact);
+    }
+
+    const RubbingStep &
+    rubbing_step() const override
+    {
+      return step;
+    }
+
+    SpaceVector3
+    motion_along(const Rubbing &at, const Vector &positions) const override;
+
+    double
+    slip_speed() const override
+    {
+      return obstacles.slip_speed;
     }
 
     /// The motion of a contact that rubs.
@@ -284,24 +257,17 @@ namespace Exemplar
     }
 
     const Obstacles              &obstacles;
-    ContactSurface                surface; ///< with the shares of the material
-    const Material               &material;
     bool                          have_friction = false;
     std::vector<StandingObstacle> standing;
-    const TimeIntegrator         *integrator;
     Step                          step;
     std::optional<WeakSprings>    springs;
     double                        time = 0.;
-    std::vector<Sums>             sums_of; ///< of this process
-    std::vector<char> has_appeared;        ///< of those with From, whether they have been there
-    mutable std::vector<KeptPairs> kept;   ///< of each obstacle; no result depends on it
-    double                         barrier_energy = 0.; ///< where a step ended
-    double                         least_gap;
-    double                         n_pairs = 0.;
-    SpaceVector3                   force_of_springs;    ///< where a step ended, of this process [N]
-    std::vector<double>            node_areas;          ///< of the whole body, by node [m^2]
-    const SymmetricPattern        *pattern   = nullptr; ///< since attach()
-    const FreeDofs                *free_dofs = nullptr; ///< since attach()
+    std::vector<Sums>             sums_of;  ///< of this process
+    std::vector<char> has_appeared;         ///< of those with From, whether they have been there
+    mutable std::vector<KeptPairs> kept;    ///< of each obstacle; no result depends on it
+    Reached                        reached; ///< where a step ended, of this process
+    SpaceVector3                   force_of_springs; ///< where a step ended, of this process [N]
+    std::vector<double>            node_areas;       ///< of the whole body, by node [m^2]
   };
 } // namespace Exemplar
 

@@ -215,6 +215,17 @@ namespace Exemplar
     {
     }
 
+    /// Append all gaps at these positions that are below their width, and at least those that a displacement, which moves no node farther than
+    /// `reach` [m], or one that is as long may bring below it; in an order that the mesh decides.
+    virtual void
+    append_gaps_along(const Vector &positions,
+                      const Vector & /*displacement*/,
+                      double            reach,
+                      std::vector<Gap> &gaps) const
+    {
+      append_gaps(positions, 1. + reach / gap_width(), gaps);
+    }
+
     /// Append the gaps of free and held nodes that go straight from positions where all are open to others, while obstacles go from where
     /// they are at `now` to where they are at `time` [s]: gaps at the end of these ways, below `range` times their width, negative and with the
     /// normals of the place where they meet for what meets. Called and left with obstacles at `now`.

@@ -50,6 +50,7 @@ namespace Exemplar
         part; ///< of edges: nodes 0 and 1 are the ends of e and, if f is of the body, 2 and 3 those of f
     /// Derivatives of the coefficients by the free parameters.
     std::array<std::array<double, 4>, 2> by_free{};
+    unsigned int obstacle = 0; ///< its number, if both parts are not of the body
   };
 
   /// The part of a way that is gone so that a distance stays above `left`; `longest` at most. No point of the pair goes faster than

@@ -21,7 +21,7 @@ namespace Exemplar
     choose_nodes(const SceneParameters &scene, const Mesh &mesh, const NamedNodes &named)
     {
       NamedNodes nodes;
-      for (const auto &[selection, key] : scene.selects())
+      for (const auto &[selection, key] : scene.choices())
         if (nodes.count(selection.text) == 0)
           nodes[selection.text] = selection.choose(mesh, key, named);
       return nodes;

@@ -178,6 +178,8 @@ namespace Exemplar
       json["constrained_dofs"] = 3 * numbers.n_nodes - numbers.n_free;
       if (problem.constraints.support)
         json["support_nodes"] = support_nodes(problem);
+      if (problem.actions.body_contacts != nullptr)
+        json["pairs_left_out"] = problem.actions.body_contacts->n_left_out;
       if (body.made != nullptr && !body.made->mesh.table.empty())
         json["mesh_made"] = mesh_made(body.made->mesh);
       if (body.made != nullptr && !body.made->poses.empty())

@@ -129,6 +129,38 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// What the header of a run says of the selections that never touch each other. Throws UserError for one without a node of the surface.
+    std::string
+    left_out_note(const BodyContacts &contacts, const ContactSurface &surface)
+    {
+      std::string text;
+      for (std::size_t i = 0; i < contacts.left_out.size(); ++i)
+      {
+        const auto lies_in = [&](const auto &nodes)
+        {
+          return std::all_of(nodes.begin(), nodes.end(),
+                             [&](const unsigned int node)
+                             { return (contacts.selections_of(node) >> i & 1U) != 0; });
+        };
+        const auto n_nodes = std::count_if(surface.nodes.begin(), surface.nodes.end(),
+                                           [&](const ContactSurface::Node &at)
+                                           { return lies_in(std::array<unsigned int, 1>{ { at.node } }); });
+        if (n_nodes == 0)
+          throw UserError("Contact/Leave out: '" + contacts.left_out[i]
+                          + "' has no node of the body's surface, which alone touches anything. "
+                            "Enlarge or move the selection, or remove it.");
+        const auto n_faces = std::count_if(surface.triangles.begin(), surface.triangles.end(),
+                                           [&](const ContactSurface::Triangle &triangle)
+                                           { return lies_in(triangle.nodes); });
+        text += fmt::format("{}{} faces and {} nodes in '{}'", i == 0 ? "" : ", ", n_faces, n_nodes,
+                            contacts.left_out[i]);
+      }
+      return "Contact leaves out what never touches each other: " + text;
+    }
+  } // namespace
+
   void
   suit_body_contacts(BodyContacts             &contacts,
                      const ContactSurface     &surface,
@@ -136,6 +168,8 @@ namespace Exemplar
                      const Vector             &positions,
                      std::vector<std::string> &notes)
   {
+    if (!contacts.left_out.empty())
+      notes.push_back(left_out_note(contacts, surface));
     const StandingSurface at_rest(contacts, surface, rest_positions);
     SpaceVector3          first_place;
     const auto            leave_out = [&](const StandingSurface::Near &near)

@@ -44,7 +44,9 @@ namespace Exemplar
     }
 
     std::unique_ptr<BodyContacts>
-    make_body_contacts(const SceneParameters &parameters, const Body &body)
+    make_body_contacts(const SceneParameters &parameters,
+                       const Body            &body,
+                       const BodyInputs      &inputs)
     {
       if (parameters.contact.empty())
         return nullptr;
@@ -58,7 +60,8 @@ namespace Exemplar
             parameters.name
             + ": Contact/Bodies = true keeps pieces of the mesh out of each other, but it is "
               "in one piece. Set Contact/Self = true, or Contact/Bodies = false.");
-      return std::make_unique<BodyContacts>(parameters.contact, body.mesh, body.fe_space);
+      return std::make_unique<BodyContacts>(parameters.contact, body.mesh, body.fe_space,
+                                            inputs.fields.nodes);
     }
 
     /// Whether steps minimise one energy, the same before and after a step.
@@ -154,7 +157,7 @@ namespace Exemplar
                       ? nullptr
                       : std::make_unique<Obstacles>(
                           parameters.obstacles, body.mesh.diameter(), inputs.fields.obstacles)),
-        body_contacts(make_body_contacts(parameters, body)),
+        body_contacts(make_body_contacts(parameters, body, inputs)),
         contact_surface(obstacles == nullptr && body_contacts == nullptr
                             ? nullptr
                             : std::make_unique<ContactSurface>(body.mesh, body.fe_space)),

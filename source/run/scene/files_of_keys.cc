@@ -40,6 +40,9 @@ namespace Exemplar
     }
     else if (key.key == "Select")
       append_names(Selection{ key.value }, key.path(), names);
+    else if (key.key == "Leave out")
+      for (const std::string &text : split_trimmed(key.value, ';'))
+        append_names(Selection{ text }, key.path(), names);
     else if (key.key == "Shape" && !file_of_shape(key.value).empty())
       names.push_back(file_of_shape(key.value));
     return names;

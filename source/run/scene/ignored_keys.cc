@@ -82,7 +82,7 @@ namespace Exemplar
           { "Examples/Include rest pose" },
           "with additive weights, whose keys are added to the rest pose. Remove it." },
         { scene.contact.empty(),
-          { "Contact/Distance", "Contact/Friction", "Contact/Slip speed" },
+          { "Contact/Distance", "Contact/Friction", "Contact/Slip speed", "Contact/Leave out" },
           "without Contact/Self or Contact/Bodies. Set one of them, or remove it." },
         { !scene.contact.empty() && scene.contact.friction == 0.,
           { "Contact/Slip speed" },
@@ -158,7 +158,7 @@ namespace Exemplar
       if (load.force == LoadParameters().force)
         warnings.push_back("Loads/" + load.name + " does nothing: its Force is " + load.force
                            + ". Set Loads/" + load.name + "/Force, or remove it from Loads/Names.");
-    for (const auto &[selection, key] : scene.selects())
+    for (const auto &[selection, key] : scene.choices())
       if (const std::string doubt = selection.doubt(); !doubt.empty())
         warnings.push_back(key + " = '" + selection.text + "': " + doubt);
     return warnings;

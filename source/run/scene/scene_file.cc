@@ -255,6 +255,8 @@ namespace Exemplar
     for (const DeclaredKey &key : keys.keys())
       if (key.key == "Fibre direction")
         keys.set(key.path(), absolute_fibre_direction(key.value, directory()));
+    keys.set("Contact/Leave out",
+             ContactParameters::absolute_leave_out(parameters.contact.leave_out, directory()));
     for (const ObstacleParameters &obstacle : parameters.obstacles.named)
       keys.set("Obstacles/" + obstacle.name + "/Shape",
                ObstacleParameters::absolute_shape(obstacle.shape, directory()));

@@ -277,9 +277,18 @@ namespace Exemplar
   }
 
   KeyedSelections
+  SceneParameters::choices() const
+  {
+    KeyedSelections       all        = selects();
+    const KeyedSelections of_contact = contact.selections();
+    all.insert(all.end(), of_contact.begin(), of_contact.end());
+    return all;
+  }
+
+  KeyedSelections
   SceneParameters::selections() const
   {
-    KeyedSelections       all         = selects();
+    KeyedSelections       all         = choices();
     const KeyedSelections of_material = material.selections();
     all.insert(all.end(), of_material.begin(), of_material.end());
     return all;

@@ -57,7 +57,11 @@ namespace Exemplar
     KeyedSelections
     selects() const;
 
-    /// Choices of nodes by handles, loads and fibre directions.
+    /// These, and Contact/Leave out.
+    KeyedSelections
+    choices() const;
+
+    /// Choices of nodes by handles, loads, contact and fibre directions.
     KeyedSelections
     selections() const;
 
