@@ -4,6 +4,7 @@
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/mesh_edges.h>
 #include <exemplar/mesh/mesh_file.h>
+#include <exemplar/mesh/mesh_joining.h>
 #include <exemplar/mesh/quadratic_msh.h>
 
 #include <fmt/core.h>
@@ -71,6 +72,9 @@ namespace Exemplar
   {
     MshFile           pose   = read_mesh_file(file);
     const std::string prefix = file.string() + " is no pose of " + mesh_name + ": ";
+    if (!has_quadratic_tetrahedra(pose))
+      if (auto places = pose_of_one_file(pose, mesh, prefix))
+        return std::move(*places);
     if (has_quadratic_tetrahedra(pose))
       return quadratic_pose(pose, mesh, prefix);
     compare_node_numbers(mesh, pose, prefix);

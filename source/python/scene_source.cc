@@ -251,7 +251,9 @@ namespace Exemplar::Python
               a.path()
               + " does nothing in Python, where no files are written. Remove it, and "
                 "save what you need, such as problem.positions.");
-        else if (has_mesh && (a.path() == "Mesh/File" || a.path() == "Mesh/Generator")
+        else if (has_mesh
+                 && (a.path() == "Mesh/File" || a.path() == "Mesh/Files"
+                     || a.path() == "Mesh/Generator")
                  && !is_surface_file(a.value)) // a surface may be the skin of the mesh
           source.warnings.push_back(a.path() + " = " + a.value
                                     + " does nothing, as mesh= is given, too. Remove one of them.");

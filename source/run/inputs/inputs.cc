@@ -55,6 +55,10 @@ namespace Exemplar
                                    "a mesh (" + mesh_extensions
                                        + ", .geo) or of a surface (.obj, .ply or .stl)");
                     });
+        if (inputs.mesh.nodes.empty())
+          for (const std::string &file : scene.mesh.files)
+            under_key("Mesh/Files",
+                      [&] { require_file(file, "a mesh (" + mesh_extensions + ")"); });
         for_each_pose([this](const std::string &file) { check(file); });
         if (scene.needs_surface())
           add_surface();

@@ -135,7 +135,9 @@ namespace Exemplar
     check_names(load_names, "Loads");
     check_names(obstacle_names, "Obstacles");
     refuse_misspelt_names(unknown);
-    std::vector<std::string> warnings;
+    const std::vector<std::string> mesh_names = parameters.mesh.names_of_files();
+    std::vector<std::string>       warnings
+        = drop_unlisted(named, assignments, overrides, "Mesh", mesh_names, "Files");
     for (const auto &[section, names] :
          { std::pair("Handles", &handle_names), std::pair("Loads", &load_names),
            std::pair("Obstacles", &obstacle_names) })
@@ -242,6 +244,7 @@ namespace Exemplar
       }
       keys.leave_subsection();
     };
+    declare_named("Mesh", parameters.mesh.names_of_files(), parameters.mesh.placed);
     declare_named("Handles", handle_names, parameters.handles);
     declare_named("Loads", load_names, parameters.loads.named);
     declare_named("Obstacles", obstacle_names, parameters.obstacles.named);
@@ -284,9 +287,10 @@ namespace Exemplar
   {
     SceneFile samples;
     samples.declare_sections();
-    samples.handle_names   = { "NAME" };
-    samples.load_names     = { "NAME" };
-    samples.obstacle_names = { "NAME" };
+    samples.parameters.mesh.files = { "NAME.msh" };
+    samples.handle_names          = { "NAME" };
+    samples.load_names            = { "NAME" };
+    samples.obstacle_names        = { "NAME" };
     samples.declare_named_subsections({ { { "Material", "region 1" }, "", "", "" } });
     return samples.get_keys();
   }
