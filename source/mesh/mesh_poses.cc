@@ -68,9 +68,14 @@ namespace Exemplar
   } // namespace
 
   std::vector<dealii::Point<3>>
-  read_pose(const std::filesystem::path &file, const MshFile &mesh, const std::string &mesh_name)
+  read_pose(const std::filesystem::path &file,
+            const MshFile               &mesh,
+            const std::string           &mesh_name,
+            std::string                 *note)
   {
-    MshFile           pose   = read_mesh_file(file);
+    MshFile pose = read_mesh_file(file);
+    if (note != nullptr)
+      *note = pose.note;
     const std::string prefix = file.string() + " is no pose of " + mesh_name + ": ";
     if (!has_quadratic_tetrahedra(pose))
       if (auto places = pose_of_one_file(pose, mesh, prefix))

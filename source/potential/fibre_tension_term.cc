@@ -163,7 +163,7 @@ namespace Exemplar
     {
       const unsigned int i      = of_material.of_cells[cell] - 1;
       const double       factor = of_material.factors.empty() ? 1. : of_material.factors[cell];
-      const double       value  = !held.empty()
+      const double       value  = !held.empty() && held[cell] != not_held
                                       ? held[cell]
                                       : factor
                                      * (laws[i].depends_on_place
@@ -193,7 +193,9 @@ namespace Exemplar
   bool
   FibreTensionTerm::differs(const double one, const double other) const
   {
-    return held.empty() && tensions_at(one) != tensions_at(other);
+    const bool is_free
+        = held.empty() || std::find(held.begin(), held.end(), not_held) != held.end();
+    return is_free && tensions_at(one) != tensions_at(other);
   }
 
   std::optional<FibreTensionTerm::Fibre>

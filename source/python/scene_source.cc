@@ -141,7 +141,9 @@ namespace Exemplar::Python
               const std::vector<std::string> &path,
               std::vector<Assignment>        &assignments)
     {
-      if (path.size() != 1 || (path[0] != "Handles" && path[0] != "Loads" && path[0] != "Obstacles")
+      if (path.size() != 1
+          || (path[0] != "Handles" && path[0] != "Loads" && path[0] != "Obstacles"
+              && path[0] != "Ties")
           || section.contains("Names"))
         return;
       std::string names;
@@ -197,6 +199,7 @@ namespace Exemplar::Python
                                                     : "Did you mean '" + nearest + "'?"));
       }
       const bool has_names = section == "Handles" || section == "Loads" || section == "Obstacles"
+                             || section == "Ties" || section == "Mesh"
                              || (section == "Material" && path.back().rfind("region ", 0) == 0);
       if (path.size() == 2 && !has_names)
         throw UserError(

@@ -40,7 +40,7 @@ class StateTest(unittest.TestCase):
     def test_who_joins_is_told(self):
         self.assertEqual([text["type"] for text in self.first.texts[:2]], ["scene", "state"])
         state, scene = self.state(self.first), self.first.scene
-        self.assertEqual(state["settings"], {name: scene[name] for name in ("young", "poisson", "importance", "gravity", "damping")})
+        self.assertEqual(state["settings"], {**{name: scene[name] for name in ("young", "poisson", "importance", "gravity", "damping")}, "tensions": {}})
         self.assertEqual({name: state[name] for name in ("pins", "handles", "colour", "undo", "paused", "weights_by_hand", "weights_wanted", "means")},
                          {"pins": [], "handles": [], "colour": "none", "undo": 0, "paused": False, "weights_by_hand": False, "weights_wanted": [],
                           "means": []})
@@ -61,7 +61,7 @@ class StateTest(unittest.TestCase):
         first.send(type="pause", on=True)
         for viewer in first, second:
             state = self.wait(viewer, lambda state: state["paused"])
-            self.assertEqual(state["settings"], {"young": 2e6, "poisson": .45, "importance": .9, "gravity": [0., 0., -1.5], "damping": [3., .001]})
+            self.assertEqual(state["settings"], {"young": 2e6, "poisson": .45, "importance": .9, "gravity": [0., 0., -1.5], "damping": [3., .001], "tensions": {}})
             self.assertEqual(state["pins"], [{"name": "1", "vertices": middle}])
             self.assertEqual(state["handles"], [{"name": "left", "shift": [0., 0., .25]}])
             self.assertEqual((state["colour"], state["weights_by_hand"], state["weights_wanted"]), ("det F", True, [.25, .75]))

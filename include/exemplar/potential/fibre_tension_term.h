@@ -125,6 +125,9 @@ namespace Exemplar
       change(const Vector3<double> &of_now, Tangent kind) const;
     };
 
+    /// Of a cell whose tension is the scene's, among tensions that are held.
+    static constexpr double not_held = -1.;
+
     /// None where the cell has no active fibres.
     std::optional<Fibre>
     fibre(unsigned int point, const Vector &positions) const;

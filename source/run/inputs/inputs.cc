@@ -125,8 +125,11 @@ namespace Exemplar
       void
       add(const std::string &file)
       {
+        std::string note;
         inputs.poses[file] = is_surface_file(file) ? surfaces.carry(file, inputs.mesh)
-                                                   : read_pose(file, inputs.mesh, name);
+                                                   : read_pose(file, inputs.mesh, name, &note);
+        if (!note.empty())
+          inputs.mesh.note += (inputs.mesh.note.empty() ? "" : " ") + file + ": " + note;
       }
 
       void
