@@ -20,7 +20,7 @@ function axisOf(up) {
 // One a region with active fibres; until it is moved the scene says its tension.
 const tensionOf = ({ name, value, most: greatest }) => ({
   name: `tension ${name}`, text: name === "Material" ? "tension of fibres" : `tension of ${name}`, min: 0, max: greatest, step: greatest / 200,
-  place: same, number: round, pause: PAUSE, inForce: ({ tensions }) => tensions[name] ?? value,
+  place: same, number: round, pause: DEAR, inForce: ({ tensions }) => tensions[name] ?? value,
   words: (x) => withUnit(x, "Pa"), message: (x) => ({ type: "tension", name, numbers: [x] }), needs: true });
 
 function settingsOf({ young, damping, gravity, up, examples, importance, tensions }) {

@@ -32,7 +32,8 @@ namespace Exemplar
         "File", file,
         "The tetrahedral rest mesh: .msh (gmsh 2.2 or 4.1, ASCII or binary), .mesh (Medit), .vtk, "
         ".vtu, .node or .ele (TetGen), .inp (Abaqus, CalculiX: sets become regions, "
-        "boundaries and node sets), .usda (TetMesh), or a .geo file, which gmsh meshes (the result "
+        "boundaries and node sets), .usda (TetMesh), .bdf or .nas (Nastran), or a .geo file, which "
+        "gmsh meshes (the result "
         "is kept in "
         "~/.cache/exemplar); one that could run programs or write files is refused, "
         "unless the command line says --allow-commands. Physical Volumes give material "

@@ -71,7 +71,17 @@ def usd(mesh):
                           f"    int4[] tetVertexIndices = [{tuples[1]}]\n}}\n")}
 
 
-FORMATS = [medit, legacy_vtk, vtu, tetgen, abaqus, usd]
+def nastran(mesh):
+    places, cells, faces = numbered(mesh)
+
+    def lines(entries):
+        return "".join(",".join(map(str, entry)) + "\n" for entry in entries)
+    return {"body.bdf": ("SOL 101\nCEND\nBEGIN BULK\n" + lines(["GRID", i + 1, "", *x] for i, x in enumerate(places))
+                         + lines(["CTETRA", i + 1, tag, *(k + 1 for k in n)] for i, (tag, n) in enumerate(cells))
+                         + lines(["CTRIA3", 1000 + i, tag, *(k + 1 for k in n)] for i, (tag, n) in enumerate(faces)) + "ENDDATA\n")}
+
+
+FORMATS = [medit, legacy_vtk, vtu, tetgen, abaqus, usd, nastran]
 
 
 def other_number(r, data):

@@ -74,9 +74,8 @@ class MeshFiles(SceneTest):
         output = self.solve({k: v for k, v in again.items() if v is not None})
         last = list(nodes_of(output / "final.msh").values())
         np.testing.assert_allclose(last[20:], np.add(last[:20], [0, 0, 1]), atol=1e-9)
-        refused = self.attempt({**{k: v for k, v in again.items() if v is not None}, "Mesh/skin/Scale": "2"})
-        self.assertEqual(refused.status, 1)
-        self.assertIn("subsection Mesh/skin is not in Mesh/Files (there: bone, bone 2)", refused.stderr)
+        warned = self.attempt({**{k: v for k, v in again.items() if v is not None}, "Mesh/skin/Scale": "2"})
+        self.assertIn("subsection Mesh/skin is not in Mesh/Files (there: bone, bone 2), so it is not used", warned.stderr)
 
     def test_a_pose_of_one_file(self):
         msh = read_msh(self.directory / "skin.msh")
@@ -112,7 +111,7 @@ class MeshFiles(SceneTest):
         shared = launch(2, self.directory / "scene.prm", "--output", self.directory / "shared", "--quiet")
         self.assertEqual(shared[0], 0, shared[1])
         np.testing.assert_allclose([list(x) for x in nodes_of(run.output / "final.msh").values()],
-                                   [list(x) for x in nodes_of(self.directory / "shared/final.msh").values()], atol=1e-6)
+                                   [list(x) for x in nodes_of(self.directory / "shared/final.msh").values()], atol=2e-5)
         self.assertEqual(self.call("--validate", self.directory / "scene.prm").status, 0)
 
     def test_a_changed_file_is_not_resumed(self):

@@ -230,6 +230,7 @@ namespace Exemplar
       if (all.of_cells[cell] == law)
         actions.held_tensions[cell] = all.factors.empty() ? tension : tension * all.factors[cell];
     refresh(new_loads);
+    solver->forget(); // a resumed session could not make the factor of another tension again
   }
 
   void
