@@ -46,6 +46,7 @@ namespace Exemplar::Live
       { "undo", { false, 0, false, false, false } },
       { "colour", { true, 0, false, false, false } },
       { "save pose", { false, 0, false, false, false } },
+      { "add example", { false, 0, false, false, false } },
       { "take mouse", { false, 0, false, false, false } },
     };
 

@@ -201,7 +201,9 @@ namespace Exemplar::Live
           { "gravity", parameters.loads.gravity },
           { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } },
           { "tolerance", parameters.solver.tolerance },
-          { "saves_poses", stage.get_recording() != nullptr } });
+          { "saves_poses", stage.get_recording() != nullptr },
+          { "takes_examples", parameters.examples.importance > 0.
+                                  && parameters.examples.weights != WeightRule::prescribed } });
   }
 
   std::string
