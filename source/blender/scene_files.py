@@ -5,6 +5,7 @@ import struct
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import bpy
 import numpy as np
 
 from .exemplar_blender import Failure
@@ -13,6 +14,9 @@ from .surfaces import Surface, at_rest, group_weights, in_world, seen_motion, wo
 # Painted vertex groups of these names become maps: the key, and the factors of the weights 0 and 1.
 PAINTED = {"exemplar stiffness": ("Young's modulus map", (0.1, 10.)), "exemplar density": ("Density map", (0.1, 10.)),
            "exemplar importance": ("Importance map", None)}
+TENSION = "exemplar tension"  # a custom property of the body in Pa, keyed or driven, as by a bone's rotation: how its muscle pulls
+MUSCLE = "exemplar muscle"    # the painted vertex group that pulls; without one all does
+FIBRES = ("exemplar fibres from", "exemplar fibres to")  # vertex groups between which fibres go
 REGION = "exemplar region "  # vertex groups whose names begin so are regions with weights of their own
 EARTH = 9.81  # [m/s^2]
 STILL = 1e-5  # of the body's size: what moves less is taken to be at rest
@@ -31,6 +35,8 @@ class Shot:
     steps: int = 1     # a frame
     notes: list = field(default_factory=list)  # what the artist should know
     obstacles: list = field(default_factory=list)  # names of the objects with Collision physics
+    tension: list = field(default_factory=list)    # of the body's muscle in each frame [Pa]
+    has_muscle: bool = False                       # whether a vertex group says where it is
 
 
 def unit_scale(scene):
@@ -117,11 +123,35 @@ def check(body, settings, scene):
     if settings.regions == "PAINTED" and not regions_of(body):
         raise Failure(f"Regions are to be painted, but no vertex group of {body.name} is called '{REGION}' and a name. Paint one, or set "
                       "Regions to None.")
+    for name in FIBRES if TENSION in body else ():
+        if name not in body.vertex_groups or not group_weights(body, body.data, name).max() > .5:
+            raise Failure(f"{body.name} has the property '{TENSION}', but no vertex with a weight above 0.5 in a vertex group '{name}'. Its "
+                          "fibres go from one group to the other: paint both ends of the muscle.")
     if scene.frame_end <= scene.frame_start:
         raise Failure(f"The scene has the frames {scene.frame_start} to {scene.frame_end}. Let it end after it begins.")
     for label, begin, end in (("Follow", settings.follow_from, settings.follow_until), ("Pin", settings.pin_from, settings.pin_until)):
         if end and begin == end:
             raise Failure(f"{label} is caught and let go in the same frame, {end}. Give two, or 0 for the whole shot.")
+
+
+def tension_of(body, scene):
+    """The custom property in each frame, with what keys and drivers make of it [Pa]; none without it."""
+    if TENSION not in body:
+        return []
+    values = []
+    for frame in range(scene.frame_start, scene.frame_end + 1):
+        scene.frame_set(frame)
+        values.append(float(body.evaluated_get(bpy.context.evaluated_depsgraph_get())[TENSION]))
+        if not 0. <= values[-1] < float("inf"):
+            raise Failure(f"{TENSION} of {body.name} is {values[-1]:g} in frame {frame}, but muscles do not push. Keep it at 0 or more.")
+    return values
+
+
+def tension_formula(values, rate):
+    """Straight from frame to frame, as a formula of t."""
+    ramps = "".join(f"{after - before:+.9g}*min(max({rate:.12g}*t-{k},0),1)" for k, (before, after) in enumerate(zip(values, values[1:]))
+                    if after != before)
+    return f"max(0,{values[0]:.9g}{ramps})" if ramps else f"{values[0]:.9g}"
 
 
 def regions_of(body):
@@ -157,12 +187,14 @@ def is_balanced(settings, scene, shot, handles):
     """Whether the body stands as it is drawn: something must hold it in the first frame, and something pull. Obstacles bear it otherwise."""
     def from_the_start(keys):
         return "From" not in keys and keys.get("Until") != "0"
-    return settings.balanced and not shot.obstacles and bool(gravity_of(scene).any()) and any(map(from_the_start, handles.values()))
+    return settings.balanced and not shot.obstacles and not shot.tension and bool(gravity_of(scene).any()) and any(map(from_the_start, handles.values()))
 
 
 def notes_of(body, settings, scene, shot, is_posed):
     if not settings.balanced or not gravity_of(scene).any():
         return []
+    if shot.tension:
+        return [f"{body.name} has a muscle, and Balanced does nothing beside '{TENSION}': the body sags under its weight where it is held."]
     if shot.obstacles:
         return [f"{', '.join(shot.obstacles)}: {body.name} may not pass them, and Balanced does nothing beside Collision physics: the body sags "
                 "under its weight where it is held."]
@@ -204,6 +236,11 @@ def scene_text(body, settings, scene, shot, painted, is_posed, obstacles):
         key, factors = PAINTED[name]
         column = name.split()[1]
         material[key] = f"groups.csv:{column}" + (f" from {factors[0]} to {factors[1]}" if factors else "")
+    if shot.tension:
+        material["Fibre tension"] = tension_formula(shot.tension, rate)
+        material["Fibre direction"] = "from map groups.csv:fibres_from above 0.5 to map groups.csv:fibres_to above 0.5"
+        if shot.has_muscle:
+            material["Fibre tension map"] = "groups.csv:muscle"
     keys.add("Material", **material)
     if shot.poses:
         examples = {"Poses": ", ".join(f"pose_{i}.obj" for i in range(1, len(shot.poses) + 1)),
@@ -248,6 +285,9 @@ def write_worn(body, directory):
 def write_tables(surface, settings, painted, regions, directory):
     groups = {handle: surface.group_weights(name) for handle, name in (("follow", settings.follow), ("pin", settings.pin)) if name}
     groups.update((name.split()[1], surface.group_weights(name)) for name in painted)
+    if TENSION in surface.shown:
+        groups.update((name.removeprefix("exemplar ").replace(" ", "_"), surface.group_weights(name)) for name in (*FIBRES, MUSCLE)
+                      if name in surface.shown.vertex_groups)
     groups.update((f"region_{i}", surface.group_weights(name)) for i, name in enumerate(regions, 1))
     if groups:
         write_groups(directory / "groups.csv", groups)
@@ -286,7 +326,9 @@ def write_scene(body, settings, scene, directory):
             write_obj(directory / f"pose_{i}.obj", in_world(shape, matrix), surface.faces())
         shot = Shot(directory / "scene.prm", surface.faces(), [list(row) for row in matrix], list(poses), write_worn(body, directory),
                     regions_of(body) if settings.regions == "PAINTED" and poses else [], scene.frame_end - scene.frame_start,
-                    settings.steps, obstacles=[shown.name for shown in found])
+                    settings.steps, obstacles=[shown.name for shown in found], tension=tension_of(body, scene),
+                    has_muscle=MUSCLE in body.vertex_groups)
+        scene.frame_set(scene.frame_start)
         painted = [name for name in PAINTED if name in body.vertex_groups]
         write_tables(surface, settings, painted, shot.regions, directory)
         is_posed = write_motion(surface, settings, scene, directory)

@@ -124,7 +124,8 @@ namespace Exemplar
   std::vector<unsigned int>
   n_free_rigid_motions(const Mesh                      &mesh,
                        const FESpace                   &fe_space,
-                       const std::vector<unsigned int> &held_dofs)
+                       const std::vector<unsigned int> &held_dofs,
+                       const std::vector<unsigned int> &joined)
   {
     const Exchange                     &exchange = mesh.exchange();
     const auto                         &rest     = fe_space.rest_positions();
@@ -134,18 +135,25 @@ namespace Exemplar
     const std::vector<double>           own_numbers(own.begin(), own.end());
     const std::vector<double>           pieces
         = exchange.whole(own_numbers.data(), 1, own_numbers.size(), true);
+    const auto leader_of = [&](const double piece)
+    {
+      const auto own_piece = static_cast<unsigned int>(piece);
+      return joined.empty() ? own_piece : joined[own_piece];
+    };
     std::vector<unsigned int> n_free;
     for (unsigned int piece = 0; piece < mesh.n_pieces(); ++piece)
     {
       std::vector<dealii::Point<3>> vertices;
       std::vector<unsigned int>     of_piece;
       for (unsigned int node = 0; node < mesh.whole().n_nodes; ++node)
-        if (pieces[node] == piece)
+        if (leader_of(pieces[node]) == piece)
           vertices.push_back(nodes[node]);
       for (const unsigned int dof : held)
-        if (pieces[dof / 3] == piece)
+        if (leader_of(pieces[dof / 3]) == piece)
           of_piece.push_back(dof);
-      n_free.push_back(n_free_rigid_motions(nodes, centroid(vertices), mesh.diameter(), of_piece));
+      n_free.push_back(vertices.empty() ? 0
+                                        : n_free_rigid_motions(nodes, centroid(vertices),
+                                                               mesh.diameter(), of_piece));
     }
     return n_free;
   }

@@ -71,15 +71,30 @@ namespace Exemplar::Live
       return false;
     }
     viewers.insert(viewer);
-    viewer->send_text(welcome.scene);
-    viewer->send_text(welcome.state);
-    for (const Bytes &binary : welcome.binaries)
-      viewer->send_binary(binary);
+    send_welcome(*viewer);
     if (newest != nullptr)
       viewer->send_frame(newest);
     give_mouse_to(holder == nullptr ? viewer.get() : holder);
     mailbox.set_n_viewers(viewers.size());
     return true;
+  }
+
+  void
+  Audience::send_welcome(Viewer &viewer) const
+  {
+    viewer.send_text(welcome.scene);
+    viewer.send_text(welcome.state);
+    for (const Bytes &binary : welcome.binaries)
+      viewer.send_binary(binary);
+  }
+
+  void
+  Audience::welcome_again(Welcome other)
+  {
+    welcome = std::move(other);
+    newest  = nullptr;
+    for (const auto &viewer : std::set<std::shared_ptr<Viewer>>(viewers)) // a copy: one may leave
+      send_welcome(*viewer);
   }
 
   void

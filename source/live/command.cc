@@ -36,6 +36,7 @@ namespace Exemplar::Live
       { "unpin", { true, 0, false, false, false } },
       { "handle", { true, 3, false, false, false } }, // displacement
       { "set", { true, 1, false, false, false } },
+      { "tension", { true, 1, false, false, false } }, // of a region [Pa]
       { "weights", { false, any_number, false, false, false } },
       { "gravity", { false, 3, false, false, false } },
       { "damping", { false, 2, false, false, false } },
@@ -45,6 +46,7 @@ namespace Exemplar::Live
       { "undo", { false, 0, false, false, false } },
       { "colour", { true, 0, false, false, false } },
       { "save pose", { false, 0, false, false, false } },
+      { "add example", { false, 0, false, false, false } },
       { "take mouse", { false, 0, false, false, false } },
     };
 

@@ -282,11 +282,14 @@ Exit status:
       Audience        audience(mailbox, log);
       Server          server(arguments.place, access, site, audience);
       auto           &context = server.get_context();
-      const Outbox    outbox
-          = { [&](Bytes frame)
-              { boost::asio::post(context, [&audience, frame] { audience.show(frame); }); },
-              [&](std::string text)
-              { boost::asio::post(context, [&audience, text] { audience.tell(text); }); } };
+      const Outbox    outbox  = {
+            [&](Bytes frame)
+            { boost::asio::post(context, [&audience, frame] { audience.show(frame); }); },
+        [&](std::string text)
+        { boost::asio::post(context, [&audience, text] { audience.tell(text); }); },
+        [&](Welcome welcome)
+        { boost::asio::post(context, [&audience, welcome] { audience.welcome_again(welcome); }); }
+      };
       Simulation simulation(stage, mailbox, outbox,
                             up_of(scene.get_parameters().loads.gravity, axis));
       audience.set_welcome(simulation.welcome());

@@ -5,7 +5,7 @@ import { Weights } from "./weights.js";
 import { detailsOf, round, short, speedWords } from "./words.js";
 
 const find = (id) => document.getElementById(id);
-const KEYS = { " ": "pause", ".": "step", z: "undo", r: "reset", s: "save", e: "with", f: "fit", 1: "front", 2: "side", 3: "top", g: "ground",
+const KEYS = { " ": "pause", ".": "step", z: "undo", r: "reset", s: "save", x: "example", e: "with", f: "fit", 1: "front", 2: "side", 3: "top", g: "ground",
   p: "picture", "?": "help" };
 
 // Whether what has the focus wants a key for itself.
@@ -21,6 +21,7 @@ export class Panel {
     this.weights = new Weights(send);
     const press = { pause: () => send({ type: "pause", on: !this.state.paused }), step: () => send({ type: "step" }),
       undo: () => send({ type: "undo" }), reset: () => send({ type: "reset" }), save: () => send({ type: "save pose" }),
+      example: () => send({ type: "add example" }),
       take: () => send({ type: "take mouse" }), help: () => this.showHelp(), ...look };
     for (const [id, action] of Object.entries(press))
       find(id).onclick = action;
@@ -62,6 +63,7 @@ export class Panel {
     find("name").textContent = scene.name;
     document.title = `${scene.name} – exemplar live`;
     find("save").hidden = !scene.saves_poses;
+    find("example").hidden = !scene.takes_examples;
     find("said").hidden = Number.isFinite(scene.floor); // something rests on it
     this.sliders.setScene(scene);
     this.weights.setScene(scene);

@@ -108,6 +108,18 @@ namespace Exemplar::Live
   {
     if (command.type == "gravity" || command.type == "damping")
       return before_next_step(problem, command.type, "", {}, command.numbers);
+    if (command.type == "tension")
+    {
+      try
+      {
+        problem.check_tension(command.name, command.numbers[0]);
+      }
+      catch (const UserError &refusal)
+      {
+        throw std::invalid_argument(refusal.what());
+      }
+      return before_next_step(problem, "tension", command.name, {}, command.numbers);
+    }
     const auto bound = bounds.find(command.name);
     if (command.type != "set" || bound == bounds.end())
       throw std::invalid_argument("this cannot be set");

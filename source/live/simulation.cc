@@ -104,6 +104,8 @@ namespace Exemplar::Live
         choose_colour(command.name);
       else if (command.type == "save pose")
         save_pose();
+      else if (command.type == "add example")
+        add_example();
       else if (command.type == "let go of all")
         stage.act(hand.let_go_of_all(stage.get_problem()));
       else
@@ -239,6 +241,19 @@ namespace Exemplar::Live
     if (recording == nullptr)
       throw std::invalid_argument("poses are saved by a server that was started with --record DIR");
     tell("saved", recording->save_pose(stage.get_problem()).string());
+  }
+
+  void
+  Simulation::add_example()
+  {
+    const std::string name = stage.add_example();
+    hand.restore({});
+    held_before.clear();
+    n_failures = 0;
+    pace.restart();
+    outbox.welcome(welcome());
+    show_frame();
+    tell("warning", "The body begins anew, with this pose as its example " + name + ".");
   }
 
   void

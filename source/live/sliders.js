@@ -17,7 +17,13 @@ function axisOf(up) {
   return c < 0 ? { name: "its axis, upwards", along: up } : { name: "xyz"[c], along: [0, 1, 2].map((d) => Number(c === d)) };
 }
 
-function settingsOf({ young, damping, gravity, up, examples, importance }) {
+// One a region with active fibres; until it is moved the scene says its tension.
+const tensionOf = ({ name, value, most: greatest }) => ({
+  name: `tension ${name}`, text: name === "Material" ? "tension of fibres" : `tension of ${name}`, min: 0, max: greatest, step: greatest / 200,
+  place: same, number: round, pause: DEAR, inForce: ({ tensions }) => tensions[name] ?? value,
+  words: (x) => withUnit(x, "Pa"), message: (x) => ({ type: "tension", name, numbers: [x] }), needs: true });
+
+function settingsOf({ young, damping, gravity, up, examples, importance, tensions }) {
   const middle = Math.round(Math.log10(young));
   const axis = axisOf(up);
   const part = (vector) => vector.reduce((sum, x, c) => sum + x * axis.along[c], 0);
@@ -35,6 +41,7 @@ function settingsOf({ young, damping, gravity, up, examples, importance }) {
     { name: "gravity", text: `gravity along ${axis.name}`, min: -strength, max: strength, step: 0.1, place: same, number: same,
       pause: PAUSE, inForce: (settings) => part(settings.gravity), words: (x) => `${short(x)} m/s²`,
       message: (x, { gravity: now }) => ({ type: "gravity", numbers: now.map((g, c) => (axis.along[c] === 1 ? x : g + (x - part(now)) * axis.along[c])) }), needs: true },
+    ...tensions.map(tensionOf),
   ];
 }
 

@@ -210,6 +210,57 @@ namespace Exemplar::Live
     make_problem_anew();
   }
 
+  std::string
+  Stage::add_example()
+  {
+    std::vector<dealii::Point<3>> places;
+    for (unsigned int node = 0; node < problem->body.mesh.n_nodes(); ++node)
+    {
+      const double *const x = problem->state.positions.begin() + 3 * node;
+      places.emplace_back(x[0], x[1], x[2]);
+      places.back() /= parameters.mesh.scale;
+    }
+    SceneParameters scene = parameters;
+    const auto      n     = scene.examples.poses.size();
+    std::string     name  = "by_hand_" + std::to_string(n + 1);
+    if (recording)
+      name = recording->save_pose(*problem).string();
+    scene.examples.poses.push_back(name);
+    CompleteScene next = for_threads(CompleteScene(std::move(scene)), parameters.solver.n_threads);
+    if (!next.examples.in_use())
+      throw UserError("examples do nothing while Examples/Importance is 0. Set it in the scene.");
+    BodyFields of_next  = fields;
+    of_next.poses[name] = std::move(places);
+    auto with_one_more
+        = make_problem(next,
+                       [&](const CompleteScene &) {
+                         return BodyInputs{ Mesh(contents, next.mesh.name(), next.mesh.scale),
+                                            of_next, undivided };
+                       });
+    player.reset();
+    problem    = std::move(with_one_more);
+    parameters = std::move(next);
+    fields     = std::move(of_next);
+    moments.clear();
+    if (recording)
+    {
+      done->flush();
+      for (DeclaredKey &key : keys)
+        if (key.path() == "Examples/Poses")
+          key.value
+              += (key.value.empty() ? "" : ", ") + std::filesystem::path(name).filename().string();
+    }
+    end_if_refused(
+        [this]
+        {
+          if (recording)
+            recording->set_aside();
+          player = std::make_unique<SessionPlayer>(*problem);
+          begin_recording();
+        });
+    return std::filesystem::path(name).stem().string();
+  }
+
   void
   Stage::save()
   {

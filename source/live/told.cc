@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/live/obstacle_frames.h>
 #include <exemplar/live/told.h>
+#include <exemplar/potential/fibre_tension_term.h>
 #include <exemplar/run/output/weight_names.h>
 
 #include <fmt/core.h>
@@ -98,6 +99,48 @@ namespace Exemplar::Live
       return std::vector<double>(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(n));
     }
 
+    /// Of each region with active fibres, what a hand has set [Pa]; null: as the scene says.
+    Json
+    tensions_of(const Problem &problem)
+    {
+      const FibreTensions       &all  = problem.body.material.tensions();
+      const std::vector<double> &held = problem.actions.held_tensions;
+      Json                       list = Json::object();
+      for (unsigned int law = 0; law < all.sources.size(); ++law)
+      {
+        Json &value = list[all.sources[law].region()];
+        for (std::size_t cell = 0; cell < held.size(); ++cell)
+          if (const double factor = all.factors.empty() ? 1. : all.factors[cell];
+              all.of_cells[cell] == law + 1 && held[cell] != FibreTensionTerm::not_held
+              && factor > 0.)
+          {
+            value = held[cell] / factor;
+            break;
+          }
+      }
+      return list;
+    }
+
+    /// The same as the scene begins, with the ends of their sliders.
+    Json
+    sliders_of_tensions(const Problem &problem)
+    {
+      const FibreTensions          &all  = problem.body.material.tensions();
+      const FibreTensionTerm *const term = find_tension_term(problem.potential.get_terms());
+      Json                          list = Json::array();
+      for (unsigned int law = 0; law < all.sources.size(); ++law)
+      {
+        double greatest = 0.;
+        for (std::size_t cell = 0; cell < all.of_cells.size(); ++cell)
+          if (all.of_cells[cell] == law + 1)
+            greatest = std::max(greatest, term->tensions()[cell]);
+        list.push_back({ { "name", all.sources[law].region() },
+                         { "value", greatest },
+                         { "most", std::max(2. * greatest, young_of(problem).mean) } });
+      }
+      return list;
+    }
+
     Json
     settings_of(const Problem &problem, const double young, const double poisson)
     {
@@ -106,7 +149,8 @@ namespace Exemplar::Live
                { "poisson", poisson },
                { "importance", parameters.examples.importance },
                { "gravity", parameters.loads.gravity },
-               { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } } };
+               { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } },
+               { "tensions", tensions_of(problem) } };
     }
 
     /// Names of the settings whose values are means over different cells.
@@ -151,12 +195,15 @@ namespace Exemplar::Live
           { "poisson", parameters.material.everywhere.poissons_ratio },
           { "importance", parameters.examples.importance },
           { "bounds", bounds_of(hand) },
+          { "tensions", sliders_of_tensions(problem) },
           { "finds_weights", parameters.examples.are_bounded() },
           { "weights_add", parameters.examples.weights == WeightRule::additive },
           { "gravity", parameters.loads.gravity },
           { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } },
           { "tolerance", parameters.solver.tolerance },
-          { "saves_poses", stage.get_recording() != nullptr } });
+          { "saves_poses", stage.get_recording() != nullptr },
+          { "takes_examples", parameters.examples.importance > 0.
+                                  && parameters.examples.weights != WeightRule::prescribed } });
   }
 
   std::string

@@ -40,7 +40,7 @@ namespace Exemplar
       static const std::vector<Format> all = {
         { "a legacy VTK file", Way::msh, { ".vtk" }, { "# vtk DataFile" } },
         { "an I-DEAS universal file", Way::gmsh, { ".unv" }, {} },
-        { "a Nastran file", Way::gmsh, { ".bdf", ".nas" }, {} },
+        { "a Nastran file", Way::msh, { ".bdf", ".nas" }, { "BEGIN BULK", "SOL " } },
         { "a Medit mesh", Way::msh, { ".mesh" }, { "MeshVersionFormatted" } },
         { "a binary Medit mesh", Way::gmsh, { ".meshb" }, {} },
         { "an Abaqus file", Way::msh, { ".inp" }, { "*HEADING", "*Heading", "*NODE", "*Node" } },

@@ -60,8 +60,9 @@ namespace Exemplar
     };
 
     constexpr Reader readers[] = {
-      { ".MESH", read_medit }, { ".VTK", read_legacy_vtk }, { ".VTU", read_vtu },
-      { ".INP", read_abaqus }, { ".USDA", read_usd },
+      { ".MESH", read_medit },  { ".VTK", read_legacy_vtk }, { ".VTU", read_vtu },
+      { ".INP", read_abaqus },  { ".USDA", read_usd },       { ".BDF", read_nastran },
+      { ".NAS", read_nastran },
     };
 
     const Reader *
@@ -80,7 +81,8 @@ namespace Exemplar
     }
   } // namespace
 
-  const std::string mesh_extensions = ".msh, .mesh, .vtk, .vtu, .node or .ele, .inp, .usda";
+  const std::string mesh_extensions
+      = ".msh, .mesh, .vtk, .vtu, .node or .ele, .inp, .usda, .bdf or .nas";
 
   bool
   is_mesh_file(const fs::path &file)

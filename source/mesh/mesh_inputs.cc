@@ -3,6 +3,7 @@
 #include <exemplar/mesh/mesh_file.h>
 #include <exemplar/mesh/mesh_generation.h>
 #include <exemplar/mesh/mesh_inputs.h>
+#include <exemplar/mesh/mesh_joining.h>
 #include <exemplar/mesh/quadratic_msh.h>
 
 #include <fmt/core.h>
@@ -19,6 +20,23 @@ namespace Exemplar
       const std::filesystem::path path(parameters.file);
       return path.extension() == ".geo" ? mesh_geo_file(path, parameters.allow_commands)
                                         : read_mesh_file(path);
+    }
+
+    MshFile
+    with_corners_alone(MshFile msh, const std::string &name)
+    {
+      if (has_quadratic_tetrahedra(msh))
+        take_corners(msh, name);
+      return msh;
+    }
+
+    MshFile
+    read_files(const MeshParameters &parameters)
+    {
+      std::vector<MshFile> meshes;
+      for (const std::string &file : parameters.files)
+        meshes.push_back(with_corners_alone(read_mesh_file(file), file));
+      return join_meshes(std::move(meshes), parameters.placed);
     }
 
     /// Append an element between nodes that exist.
@@ -43,8 +61,13 @@ namespace Exemplar
   MshFile
   load_mesh(const MeshParameters &parameters)
   {
-    const bool has_file = !parameters.file.empty();
-    const bool has_box  = parameters.generator == MeshGenerator::box;
+    const bool has_file = !parameters.file.empty(), has_files = !parameters.files.empty();
+    const bool has_box = parameters.generator == MeshGenerator::box;
+    if (has_files && (has_file || has_box))
+      throw UserError("Mesh: both Files and " + std::string(has_file ? "File" : "Generator")
+                      + " are given. Keep one of them.");
+    if (has_files)
+      return read_files(parameters);
     if (has_file == has_box)
       throw UserError(std::string("Mesh: ")
                       + (has_file ? "both File and Generator are given" : "no mesh is given")
@@ -53,10 +76,7 @@ namespace Exemplar
                         "Mesh/Generator = box; exactly one of them.");
     if (has_box)
       return generate_box(parameters.box_size, parameters.box_cells);
-    MshFile msh = msh_of(parameters);
-    if (has_quadratic_tetrahedra(msh))
-      take_corners(msh, parameters.name());
-    return msh;
+    return with_corners_alone(msh_of(parameters), parameters.name());
   }
 
   MshFile

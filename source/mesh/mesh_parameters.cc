@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <map>
 #include <set>
 
 namespace Exemplar
@@ -38,7 +39,8 @@ namespace Exemplar
         "File", file,
         "The tetrahedral rest mesh: .msh (gmsh 2.2 or 4.1, ASCII or binary), .mesh (Medit), .vtk, "
         ".vtu, .node or .ele (TetGen), .inp (Abaqus, CalculiX: sets become regions, "
-        "boundaries and node sets), .usda (TetMesh), or a .geo file, which gmsh meshes (the result "
+        "boundaries and node sets), .usda (TetMesh), .bdf or .nas (Nastran), or a .geo file, which "
+        "gmsh meshes (the result "
         "is kept in "
         "~/.cache/exemplar); one that could run programs or write files is refused, "
         "unless the command line says --allow-commands. Physical Volumes give material "
@@ -46,6 +48,15 @@ namespace Exemplar
         "Surfaces boundary ids. Or a surface, .obj, .ply or .stl, which is filled with "
         "cells as by exemplar mesh (kept there, too; the mesh is written to the output "
         "as rest.msh). Leave it empty if Generator = box.");
+    keys.add_files(
+        "Files", files,
+        "Several meshes in one scene instead of File, without common nodes. Each may have "
+        "a subsection Mesh/NAME that is called after its file, without directory and "
+        "extension; a file that is named again is NAME 2. Nodes, elements and physical "
+        "tags of the second file are numbered from the next power of ten on, of the third "
+        "from twice that; a group of a file is 'NAME GROUP', and its region NAME, if it "
+        "has one alone. A pose of one of the files is one in which the others are at "
+        "rest.");
     keys.add("Cells", n_cells,
              "How many tetrahedra a surface is filled with, about, if File is one.",
              Bounds{ min_n_cells, max_n_cells });
@@ -84,11 +95,62 @@ namespace Exemplar
     keys.leave_subsection();
   }
 
+  void
+  PlacedFile::declare(KeyTable &keys)
+  {
+    keys.enter_subsection(name);
+    keys.add("Scale", scale,
+             "Factor > 0 of the coordinates of this file of Mesh/Files, beside Mesh/Scale.",
+             Bounds{ 0. });
+    keys.add("Displacement", displacement,
+             "Where the origin of this file of Mesh/Files lies, in the unit that Mesh/Scale makes "
+             "metres of.");
+    keys.leave_subsection();
+  }
+
+  std::vector<std::string>
+  MeshParameters::names_of_files() const
+  {
+    std::vector<std::string>            names;
+    std::map<std::string, unsigned int> n_of_file;
+    for (const std::string &path : files)
+    {
+      if (is_surface_file(path))
+        throw UserError("Mesh/Files: " + path
+                        + " is a surface. Fill it with cells, exemplar mesh --surface " + path
+                        + " --cells N --output FILE.msh, and name the .msh.");
+      if (std::filesystem::path(path).extension() == ".geo")
+        throw UserError("Mesh/Files: " + path + " is a geometry. Mesh it, gmsh -3 " + path
+                        + ", and name the .msh.");
+      const unsigned int n    = ++n_of_file[path];
+      std::string        name = std::filesystem::path(path).stem().string();
+      if (n > 1)
+        name += " " + std::to_string(n);
+      if (path.empty())
+        throw UserError("Mesh/Files: between two commas there must be a file.");
+      if (!std::all_of(name.begin(), name.end(), may_name_frames))
+        throw UserError("Mesh/Files: groups and subsections are called after " + path
+                        + ", so its name must consist of letters, digits, spaces, dots and the "
+                          "signs _ and -. Rename the file.");
+      if (std::find(names.begin(), names.end(), name) != names.end())
+        throw UserError(
+            "Mesh/Files: two files are called " + name
+            + ", but groups and subsections are called after them. Rename one of them.");
+      names.push_back(name);
+    }
+    return names;
+  }
+
   std::string
   MeshParameters::name() const
   {
     if (generator == MeshGenerator::box)
       return "box";
+    std::string all;
+    for (const std::string &one : files)
+      all += (all.empty() ? "" : " + ") + one;
+    if (!all.empty())
+      return all;
     return file.empty() ? "mesh" : file;
   }
 

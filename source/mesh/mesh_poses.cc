@@ -4,6 +4,7 @@
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/mesh_edges.h>
 #include <exemplar/mesh/mesh_file.h>
+#include <exemplar/mesh/mesh_joining.h>
 #include <exemplar/mesh/quadratic_msh.h>
 
 #include <fmt/core.h>
@@ -67,10 +68,18 @@ namespace Exemplar
   } // namespace
 
   std::vector<dealii::Point<3>>
-  read_pose(const std::filesystem::path &file, const MshFile &mesh, const std::string &mesh_name)
+  read_pose(const std::filesystem::path &file,
+            const MshFile               &mesh,
+            const std::string           &mesh_name,
+            std::string                 *note)
   {
-    MshFile           pose   = read_mesh_file(file);
+    MshFile pose = read_mesh_file(file);
+    if (note != nullptr)
+      *note = pose.note;
     const std::string prefix = file.string() + " is no pose of " + mesh_name + ": ";
+    if (!has_quadratic_tetrahedra(pose))
+      if (auto places = pose_of_one_file(pose, mesh, prefix))
+        return std::move(*places);
     if (has_quadratic_tetrahedra(pose))
       return quadratic_pose(pose, mesh, prefix);
     compare_node_numbers(mesh, pose, prefix);

@@ -2,6 +2,8 @@
 // Format: OpenUSD, "USDA file format" and schema UsdGeomTetMesh.
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/number_text.h>
+#include <exemplar/base/words.h>
 #include <exemplar/mesh/format_readers.h>
 #include <exemplar/mesh/mesh_builder.h>
 #include <exemplar/mesh/mesh_text.h>
@@ -10,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace Exemplar
 {
@@ -113,6 +116,7 @@ namespace Exemplar
           fail(all.size(),
                "the braces of TetMesh are not closed. The file is cut off: save or copy it "
                "again.");
+        note_unit();
         if (all.find("def Mesh") != all.npos || all.find("def Points") != all.npos)
           notes.push_back("only the prim TetMesh is read.");
       }
@@ -143,6 +147,19 @@ namespace Exemplar
                                       : list.number("a coordinate");
         }
         return result;
+      }
+
+      void
+      note_unit()
+      {
+        const std::size_t at = all.find("metersPerUnit"), equals = all.find('=', at);
+        if (at == all.npos || equals == all.npos)
+          return;
+        const std::string text
+            = trim(all.substr(equals + 1, all.find_first_of("\n)", equals) - equals - 1));
+        if (const double unit = parse_number(text); std::isfinite(unit) && unit != 1.)
+          notes.push_back("its unit is " + text + " m (metersPerUnit), which Mesh/Scale = " + text
+                          + " makes metres of.");
       }
 
       void

@@ -76,11 +76,20 @@ namespace Exemplar
         common &= selections_of(node);
       return common;
     };
+    const auto are_tied = [&](const auto &nodes, const unsigned int piece)
+    {
+      return std::any_of(nodes.begin(), nodes.end(),
+                         [&](const unsigned int node) {
+                           return tied.count({ node, piece }) > 0;
+                         });
+    };
     const auto may = [&](const auto &nodes, const auto &others)
     {
       return (also_self || pieces[nodes[0]] != pieces[others[0]])
              && !have_a_common_node(nodes, others)
-             && (left_out.empty() || !is_left_out(of_all(nodes), of_all(others)));
+             && (left_out.empty() || !is_left_out(of_all(nodes), of_all(others)))
+             && (tied.empty()
+                 || (!are_tied(nodes, pieces[others[0]]) && !are_tied(others, pieces[nodes[0]])));
     };
     if (pair.kind == BodyPairKind::edge_edge)
       return may(surface.edges[pair.first].nodes, surface.edges[pair.second].nodes);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <type_traits>
 
 namespace Exemplar
 {
@@ -137,6 +138,7 @@ namespace Exemplar
     for (unsigned int cell = 0; cell < of_material.of_cells.size(); ++cell)
       if (of_material.of_cells[cell] > 0)
         active_cells.push_back(cell);
+    keep_shares();
   }
 
   void
@@ -148,6 +150,7 @@ namespace Exemplar
   void
   FibreTensionTerm::follow_parameters()
   {
+    keep_shares();
     set_time(time);
   }
 
@@ -163,7 +166,7 @@ namespace Exemplar
     {
       const unsigned int i      = of_material.of_cells[cell] - 1;
       const double       factor = of_material.factors.empty() ? 1. : of_material.factors[cell];
-      const double       value  = !held.empty()
+      const double       value  = !held.empty() && held[cell] != not_held
                                       ? held[cell]
                                       : factor
                                      * (laws[i].depends_on_place
@@ -193,7 +196,9 @@ namespace Exemplar
   bool
   FibreTensionTerm::differs(const double one, const double other) const
   {
-    return held.empty() && tensions_at(one) != tensions_at(other);
+    const bool is_free
+        = held.empty() || std::find(held.begin(), held.end(), not_held) != held.end();
+    return is_free && tensions_at(one) != tensions_at(other);
   }
 
   std::optional<FibreTensionTerm::Fibre>
@@ -223,39 +228,83 @@ namespace Exemplar
   }
 
   void
-  FibreTensionTerm::add(const TermPoint &at, ElasticSums &sums)
+  FibreTensionTerm::keep_shares()
   {
     const auto n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
+    shares.clear();
     for (const unsigned int cell : active_cells)
+    {
+      const auto           &along = material.grain_axes(cell).along;
+      const Vector3<double> rest  = { { along[0], along[1], along[2] } };
+      for (unsigned int point = n_points * cell; point < n_points * (cell + 1); ++point)
+        for (const Vector3<double> &g : fe_space.gradients(point))
+          shares.push_back(dot(g, rest));
+    }
+  }
+
+  void
+  FibreTensionTerm::add(const TermPoint &at, ElasticSums &sums)
+  {
+    if (nodes_per_cell(fe_space.element())
+        == 4) // a number that the compiler knows is twice as fast
+      add_all(at.positions, sums, std::integral_constant<std::size_t, 4>());
+    else
+      add_all(at.positions, sums, static_cast<std::size_t>(nodes_per_cell(fe_space.element())));
+  }
+
+  template <typename Number>
+  void
+  FibreTensionTerm::add_all(const Vector &positions, ElasticSums &sums, const Number n_nodes) const
+  {
+    const auto          n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
+    const double *const x        = positions.begin();
+    double *const       gradient = sums->gradient.begin();
+    double *const       scale    = sums->force_scale.begin();
+    const double       *share    = shares.data();
+    double              energy   = sums->energy;
+    for (const unsigned int cell : active_cells)
+    {
+      const unsigned int *const nodes = fe_space.nodes(cell).data();
+      const TensionCurve       &curve = laws[of_material.of_cells[cell] - 1].curve;
       for (unsigned int point = n_points * cell; point < n_points * (cell + 1); ++point)
       {
-        const Fibre  f      = *fibre(point, at.positions);
-        const double amount = fe_space.volume(point) * tension[cell];
-        const auto   nodes  = fe_space.nodes(cell);
-        const auto   g      = fe_space.gradients(point);
-        sums->energy += amount * f.curve.energy;
-        for (unsigned int a = 0; a < nodes.size(); ++a)
-        {
-          const double share = amount * dot(g[a], f.rest);
+        Vector3<double> now{};
+        for (std::size_t a = 0; a < n_nodes; ++a)
           for (int i = 0; i < 3; ++i)
-            sums->gradient[3 * nodes[a] + i] += share * f.force_factor * f.now[i];
-          sums->force_scale[nodes[a]] += std::abs(share) * f.curve.force;
+            now[i] += share[a] * x[3 * nodes[a] + i];
+        const double        stretch  = length(now);
+        const bool          is_usual = stretch >= TensionCurve::least_stretch;
+        TensionCurve::Value value{ stretch - 1., 1., 0. };
+        if (!is_usual || !curve.is_constant())
+          value = curve.at(stretch);
+        const double amount = fe_space.volume(point) * tension[cell];
+        const double factor = is_usual ? value.force / stretch : value.slope;
+        energy += amount * value.energy;
+        for (std::size_t a = 0; a < n_nodes; ++a)
+        {
+          const double of_node = amount * share[a];
+          for (int i = 0; i < 3; ++i)
+            gradient[3 * nodes[a] + i] += of_node * factor * now[i];
+          scale[nodes[a]] += std::abs(of_node) * value.force;
         }
+        share += n_nodes;
       }
+    }
+    sums->energy = energy;
   }
 
   void
   FibreTensionTerm::along_fibre(const unsigned int                          point,
                                 const dealii::ArrayView<const unsigned int> nodes,
-                                std::vector<double>                        &shares) const
+                                std::vector<double>                        &along_nodes) const
   {
     const unsigned int    cell  = fe_space.cell_of(point);
     const auto            own   = fe_space.nodes(cell);
     const auto           &along = material.grain_axes(cell).along;
     const Vector3<double> a     = { { along[0], along[1], along[2] } };
-    shares.clear();
+    along_nodes.clear();
     for (const unsigned int node : nodes)
-      shares.push_back(
+      along_nodes.push_back(
           dot(fe_space.gradients(point)[std::find(own.begin(), own.end(), node) - own.begin()], a));
   }
 
@@ -267,7 +316,7 @@ namespace Exemplar
   {
     const auto          n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
     const std::size_t   n_blocks = n_block_columns(nodes_per_cell(fe_space.element()));
-    std::vector<double> blocks, shares;
+    std::vector<double> blocks, of_nodes;
     for (const unsigned int cell : active_cells)
     {
       if (tension[cell] == 0.)
@@ -286,13 +335,13 @@ namespace Exemplar
           for (int i = 0; i < 3; ++i)
             columns[j][i] = column[i];
         }
-        along_fibre(point, dealii::make_array_view(nodes), shares);
+        along_fibre(point, dealii::make_array_view(nodes), of_nodes);
         double *entry = blocks.data();
-        for (unsigned int a = 0; a < shares.size(); ++a)
+        for (unsigned int a = 0; a < of_nodes.size(); ++a)
           for (unsigned int b = 0; b <= a; ++b)
             for (int j = 0; j < 3; ++j)
               for (int i = 0; i < 3; ++i)
-                *entry++ += shares[a] * shares[b] * columns[j][i];
+                *entry++ += of_nodes[a] * of_nodes[b] * columns[j][i];
       }
       scatter->add_blocks(cell, blocks.data(), values);
     }
@@ -323,6 +372,7 @@ namespace Exemplar
   FibreTensionTerm::memory_consumption() const
   {
     return dealii::MemoryConsumption::memory_consumption(active_cells)
+           + dealii::MemoryConsumption::memory_consumption(shares)
            + dealii::MemoryConsumption::memory_consumption(tension)
            + (scatter ? scatter->memory_consumption() : 0);
   }

@@ -154,9 +154,15 @@ namespace Exemplar
   IncrementalPotential::set_time(const double time, State &state)
   {
     state.time = time;
+    set_time_of_terms(time);
+    state.weights = weights.at(time, state.weights);
+  }
+
+  void
+  IncrementalPotential::set_time_of_terms(const double time)
+  {
     for (const auto &term : terms)
       term->set_time(time);
-    state.weights = weights.at(time, state.weights);
   }
 
   bool

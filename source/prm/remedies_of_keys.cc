@@ -115,8 +115,9 @@ namespace Exemplar
                                 "each, such as "
                                     + section
                                     + (section == "Obstacles" ? "/NAME/Shape" : "/NAME/Select")
-                                    + (section == "Loads" ? " and Loads/NAME/Force. "
-                                                          : " and " + section + "/NAME/Motion. "));
+                                    + (section == "Loads"  ? " and Loads/NAME/Force. "
+                                       : section == "Ties" ? " and Ties/NAME/To. "
+                                                           : " and " + section + "/NAME/Motion. "));
     }
   } // namespace
 

@@ -112,6 +112,7 @@ namespace Exemplar::Python
         if (value("Mesh/Surface").empty()) // which File then was, if that is a surface
           value("Mesh/Surface") = value("Mesh/File");
         value("Mesh/File")      = mesh.string();
+        value("Mesh/Files")     = "";
         value("Mesh/Generator") = "none";
       }
       std::ofstream out(file, std::ios::binary);

@@ -141,7 +141,9 @@ namespace Exemplar::Python
               const std::vector<std::string> &path,
               std::vector<Assignment>        &assignments)
     {
-      if (path.size() != 1 || (path[0] != "Handles" && path[0] != "Loads" && path[0] != "Obstacles")
+      if (path.size() != 1
+          || (path[0] != "Handles" && path[0] != "Loads" && path[0] != "Obstacles"
+              && path[0] != "Ties")
           || section.contains("Names"))
         return;
       std::string names;
@@ -197,6 +199,7 @@ namespace Exemplar::Python
                                                     : "Did you mean '" + nearest + "'?"));
       }
       const bool has_names = section == "Handles" || section == "Loads" || section == "Obstacles"
+                             || section == "Ties" || section == "Mesh"
                              || (section == "Material" && path.back().rfind("region ", 0) == 0);
       if (path.size() == 2 && !has_names)
         throw UserError(
@@ -251,7 +254,9 @@ namespace Exemplar::Python
               a.path()
               + " does nothing in Python, where no files are written. Remove it, and "
                 "save what you need, such as problem.positions.");
-        else if (has_mesh && (a.path() == "Mesh/File" || a.path() == "Mesh/Generator")
+        else if (has_mesh
+                 && (a.path() == "Mesh/File" || a.path() == "Mesh/Files"
+                     || a.path() == "Mesh/Generator")
                  && !is_surface_file(a.value)) // a surface may be the skin of the mesh
           source.warnings.push_back(a.path() + " = " + a.value
                                     + " does nothing, as mesh= is given, too. Remove one of them.");

@@ -104,7 +104,7 @@ namespace Exemplar
   {
     StepClock::Scope scope(clock, Phase::evaluate);
     potential.set_time(trial.time, trial);
-    rebuild_metrics(accepted, step_size);
+    rebuild_metrics(accepted, step_size, trial.time);
     prediction.predict(accepted, step_size, trial);
     bool       has_metric = false;
     const auto follow     = [&](std::vector<double> &forces)
@@ -160,6 +160,7 @@ namespace Exemplar
              trial.weights,
              potential.get_tangent().couplings_of_terms(),
              potential.changes_between_steps() ? start : State(),
+             trial.time,
              step_size,
              potential.mass_factor(),
              0,

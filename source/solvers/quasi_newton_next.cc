@@ -51,7 +51,7 @@ namespace Exemplar
   }
 
   void
-  QuasiNewton::rebuild_metrics(const State &accepted, const double step_size)
+  QuasiNewton::rebuild_metrics(const State &accepted, const double step_size, const double time)
   {
     if (history.positions.size() == 0 || !metric.empty()
         || history.mass_factor != potential.mass_factor())
@@ -60,6 +60,7 @@ namespace Exemplar
     {
       if (made.start.positions.size() > 0)
         potential.begin_step(made.start, made.step_size);
+      potential.set_time_of_terms(made.time);
       potential.get_body().update_rotations(made.positions);
     };
     go_back_to(history);
@@ -72,5 +73,6 @@ namespace Exemplar
     }
     if (history.start.positions.size() > 0)
       potential.begin_step(accepted, step_size);
+    potential.set_time_of_terms(time);
   }
 } // namespace Exemplar

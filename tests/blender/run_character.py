@@ -253,6 +253,30 @@ def case_obstacles():
     return found
 
 
+def case_tension():
+    """A bone's rotation drives the muscle of a bar that hangs at its head."""
+    body = make_body()
+    rig = make_rig(body)
+    body["exemplar tension"] = 0.
+    missing = run(body, follow="", pin="head", balanced=False)
+    add_group(body, "exemplar fibres from", lambda x, y, z: z == 0)
+    add_group(body, "exemplar fibres to", lambda x, y, z: z == 4)
+    driver = body.driver_add('["exemplar tension"]').driver
+    driver.type = "SCRIPTED"
+    turn = driver.variables.new()
+    turn.name, turn.type = "turn", "TRANSFORMS"
+    turn.targets[0].id, turn.targets[0].bone_target = rig, "high"
+    turn.targets[0].transform_type, turn.targets[0].rotation_mode, turn.targets[0].transform_space = "ROT_Z", "XYZ", "LOCAL_SPACE"
+    driver.expression = "20000 * abs(turn)"
+    scene.gravity = (0., 0., 0.)
+    body.modifiers.clear()
+    found = {"missing": missing, "said": run(body, follow="", pin="head", stiffness=1e5, balanced=False), "prm": scene_file(), "run": run_places()}
+    add_group(body, "exemplar muscle", lambda x, y, z: False)
+    found["nowhere"] = run(body, follow="", pin="head", stiffness=1e5, balanced=False)
+    found["nowhere run"] = run_places()
+    return found
+
+
 def case_spans():
     body = make_body()
     make_rig(body)

@@ -7,6 +7,7 @@ from collections import namedtuple
 
 import bases
 import bodies
+import formats
 import mutations
 import runs
 import skins
@@ -389,7 +390,14 @@ def export_case(r, _):
                 {"file": "out/" + file, "seed": r.randrange(2**32), "how": "spoilt_frame" if file.endswith("vtu") else "damaged"})
 
 
-KINDS = [(session_case, 6), (export_case, 6), (painted_case, 4), (state_case, 4), (surface_case, 2), (posed_case, 3), (skin_scene_case, 2), (scene_case, 20), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3),
+def format_case(r, _):
+    """A spoilt mesh of another program; a body that stays where it is, so that the result has what was read."""
+    files, name = formats.spoilt(r)
+    entries = {"Scene": "dynamic", "Mesh/File": name, "Time/Step": "0.01", "Time/End": "0.01", "Output/Every": "0"}
+    return Case("format", {**files, "scene.prm": prm_bytes(entries.items())}, ["scene.prm", *OUT], check="second_reader")
+
+
+KINDS = [(format_case, 8), (session_case, 6), (export_case, 6), (painted_case, 4), (state_case, 4), (surface_case, 2), (posed_case, 3), (skin_scene_case, 2), (scene_case, 20), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3),
          (study_case, 5), (checkpoint_case, 8), (command_case, 7), (geo_case, 1), (directory_case, 3)]
 PLACES = ["a b", "é", "a#b", "a,b", "a;b", 'a"b', "a\nb", "\udcff", "%s", "a\\", "-", "n" * 200, "$HOME", "a=b", "a'b", "a|b",
           "\x1b[1m"]

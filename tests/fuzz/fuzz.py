@@ -27,10 +27,11 @@ import mutations
 import oracle
 import runs
 from cases import KINDS, Case, declared_keys, make_case
+from formats import by_meshio
 from fork_server import ForkServer
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scenes"))
-from exemplar_runner import EXEMPLAR, results  # noqa: E402
+from exemplar_runner import EXEMPLAR, read_msh, results  # noqa: E402
 from gltf_reader import Gltf  # noqa: E402
 
 
@@ -134,6 +135,22 @@ class Fuzzer:
             return [f"parameters.prm ends with {ended.status}: {ended.stderr.decode(errors='replace')}"]
         faults = oracle.faults_of_difference(directory / "again", results(directory / "out"))
         return ["parameters.prm: " + fault for fault in faults]
+
+    @staticmethod
+    def check_second_reader(directory):
+        """What meshio finds in the file is what the program has read, or it finds nothing."""
+        name = re.search(r"set File = (\S+)", (directory / "scene.prm").read_text()).group(1)
+        other = by_meshio(directory / name)
+        if other is None:
+            return []
+        places, cells = other
+        msh = read_msh(directory / "out/final.msh")
+        index = {number: i for i, number in enumerate(msh.nodes)}
+        mine = [[index[n] for n in e[5:]] for e in msh.elements if e[1] == 4]
+        if len(places) != len(msh.nodes) or mine != cells:
+            return [f"meshio reads {len(places)} nodes and {len(cells)} cells, the program {len(msh.nodes)} and {len(mine)}, or others"]
+        far = max(abs(a - b) / max(1, abs(a)) for x, y in zip(places, msh.nodes.values()) for a, b in zip(x, y))
+        return [f"places differ by {far} from those that meshio reads"] if not far < 1e-6 else []
 
     def check_meshed(self, directory):
         """A scene takes the mesh, unless it lies where no scene can name it."""

@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 
 from live_client import Viewer
-from live_server import BAR, Msh, Server, prm, write_msh
+from live_server import BAR, Msh, Server, prm, run_program, write_msh
 
 
 class StateTest(unittest.TestCase):
@@ -40,7 +40,7 @@ class StateTest(unittest.TestCase):
     def test_who_joins_is_told(self):
         self.assertEqual([text["type"] for text in self.first.texts[:2]], ["scene", "state"])
         state, scene = self.state(self.first), self.first.scene
-        self.assertEqual(state["settings"], {name: scene[name] for name in ("young", "poisson", "importance", "gravity", "damping")})
+        self.assertEqual(state["settings"], {**{name: scene[name] for name in ("young", "poisson", "importance", "gravity", "damping")}, "tensions": {}})
         self.assertEqual({name: state[name] for name in ("pins", "handles", "colour", "undo", "paused", "weights_by_hand", "weights_wanted", "means")},
                          {"pins": [], "handles": [], "colour": "none", "undo": 0, "paused": False, "weights_by_hand": False, "weights_wanted": [],
                           "means": []})
@@ -61,7 +61,7 @@ class StateTest(unittest.TestCase):
         first.send(type="pause", on=True)
         for viewer in first, second:
             state = self.wait(viewer, lambda state: state["paused"])
-            self.assertEqual(state["settings"], {"young": 2e6, "poisson": .45, "importance": .9, "gravity": [0., 0., -1.5], "damping": [3., .001]})
+            self.assertEqual(state["settings"], {"young": 2e6, "poisson": .45, "importance": .9, "gravity": [0., 0., -1.5], "damping": [3., .001], "tensions": {}})
             self.assertEqual(state["pins"], [{"name": "1", "vertices": middle}])
             self.assertEqual(state["handles"], [{"name": "left", "shift": [0., 0., .25]}])
             self.assertEqual((state["colour"], state["weights_by_hand"], state["weights_wanted"]), ("det F", True, [.25, .75]))
@@ -115,6 +115,60 @@ class StateTest(unittest.TestCase):
         first.send(type="reset")
         state = self.wait(first, lambda state: state["with_examples"])
         self.assertEqual((state["settings"]["importance"], state["importance_with_examples"]), (.8, .8))
+
+    def test_a_pose_becomes_an_example(self):
+        first, second = self.first, self.viewer()
+        begun = first.scene
+        first.send(type="gravity", numbers=[0., 0., -30.])
+        first.wait_steps(40)
+        n = len(second.texts)
+        first.send(type="add example")
+        scene = first.wait_for("scene")
+        second.until(lambda: any(text["type"] == "scene" for text in second.texts[n:]))
+        self.assertEqual(scene["examples"][:-1], begun["examples"])
+        self.assertEqual(scene["examples"][-1], "by_hand_1")
+        state = first.wait_for("state")
+        self.assertEqual((state["undo"], state["settings"]["gravity"], scene["gravity"]), (0, begun["gravity"], begun["gravity"]))
+        self.assertEqual(self.viewer().texts[0], scene)
+        first.send(type="weights", numbers=[0.] * len(begun["examples"]) + [1.])
+        self.wait(first, lambda state: state["weights_by_hand"])
+
+    def test_an_example_by_hand_is_recorded(self):
+        here = self.server.log.parent
+        with Server(here / "bar.prm", "--record", here / "record", log=here / "record.txt") as server, Viewer(server) as viewer:
+            viewer.send(type="gravity", numbers=[0., 0., -30.])
+            viewer.wait_steps(40)
+            viewer.send(type="add example")
+            self.assertEqual(viewer.wait_for("scene")["examples"][-1], "pose_0001")
+            viewer.until(lambda: viewer.frames[-1].step < 30)
+            viewer.send(type="gravity", numbers=[0., 0., -10.])
+            viewer.wait_steps(20)
+            viewer.send(type="pause", on=True)
+            viewer.until(lambda: viewer.wait_for("status")["paused"])
+            last = viewer.wait_for("status")["step"]
+            viewer.send(type="save pose")
+            saved = Path(viewer.wait_for("saved")["text"])
+        self.assertTrue((here / "record/scene_0001.prm").exists())  # what led to the example
+        played = run_program(here / "record/scene.prm", "--quiet", "--output", here / "played", "--set", "Output/Every=0")
+        self.assertEqual((played.status, played.stderr), (0, ""))
+        self.assertGreaterEqual(last, 20)
+        text = [file.read_text().split("$Nodes")[1].split("$EndNodes")[0] for file in (saved, here / "played/final.msh")]
+        self.assertEqual(*text)
+
+    def test_tensions_of_regions(self):
+        here = self.server.log.parent
+        scene = here / "muscle.prm"
+        scene.write_text(prm({**BAR, "Material/Fibre tension": "1e3", "Material/Fibre direction": "1; 0; 0"}))
+        with Server(scene, log=here / "muscle.txt") as server, Viewer(server) as viewer:
+            self.assertEqual(viewer.scene["tensions"], [{"name": "Material", "value": 1e3, "most": 1e6}])
+            self.assertEqual(self.state(viewer)["settings"]["tensions"], {"Material": None})
+            viewer.send(type="tension", name="Material", numbers=[2e4])
+            self.wait(viewer, lambda state: state["settings"]["tensions"] == {"Material": 2e4})
+            for name, number in (("arm", 1.), ("Material", -1.)):
+                viewer.send(type="tension", name=name, numbers=[number])
+                self.assertIn("Material/Fibre tension: ", viewer.wait_for("refused")["text"])
+            viewer.send(type="reset")
+            self.wait(viewer, lambda state: state["settings"]["tensions"] == {"Material": None})
 
     def test_a_mean_is_called_one(self):
         here = self.server.log.parent

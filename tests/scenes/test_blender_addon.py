@@ -179,6 +179,18 @@ class Characters(SceneTest):
         self.assertLess(found["least"][-1], 1.)
         self.assertIn("What has Collision physics keeps its vertices", found["grows"])
 
+    def test_a_bone_drives_a_muscle(self):
+        found = self.use("tension")
+        self.assertIn("no vertex with a weight above 0.5 in a vertex group 'exemplar fibres from'", found["missing"])
+        self.assertEqual(found["said"], "Done.")
+        self.assertIn("set Fibre direction = from map groups.csv:fibres_from above 0.5 to map groups.csv:fibres_to above 0.5\n", found["prm"])
+        self.assertRegex(found["prm"], r"set Fibre tension = max\(0,[-+.e0-9]+\*?.*min\(max\(24\*t-0,0\),1\)")
+        lengths = [max(x[2] for x in frame) - min(x[2] for x in frame) for frame in found["run"]]
+        self.assertAlmostEqual(lengths[0], 4, delta=1e-6)
+        self.assertLess(lengths[-1], 3.9)  # it has drawn itself up
+        for frame in found["nowhere run"]:
+            self.assertLess(farthest(frame, found["nowhere run"][0]), 1e-3)
+
     def test_caught_and_let_go(self):
         found = self.use("spans")
         self.assertEqual(found["said"], "Done.")

@@ -43,6 +43,24 @@ def write_usda(file):
                     f"    int4[] tetVertexIndices = [{cells}]\n}}\n")
 
 
+def write_nastran(file, form):
+    """In free fields, or in large ones with exponents without an E."""
+    nodes, elements = body()
+    lines = ["$ a body", "BEGIN BULK", "MAT1,1,2.1+11,,0.3"]
+    for i, x in enumerate(nodes):
+        if form == "free":
+            lines.append(f"GRID,{i + 1},,{','.join(x)}")
+        else:
+            x = [f"{float(c):.9e}".replace("e", "") for c in x]
+            lines += [f"GRID*   {i + 1:16}{'':16}{x[0]:>16}{x[1]:>16}", f"*       {x[2]:>16}"]
+    for i, (kind, tag, e) in enumerate(elements):
+        name = {4: "CTETRA", 2: "CTRIA3"}.get(kind)
+        if name:
+            lines.append(f"{name},{i + 1},{tag},{','.join(str(n + 1) for n in e)}" if form == "free"
+                         else f"{name:8}{i + 1:8}{tag:8}" + "".join(f"{n + 1:8}" for n in e))
+    file.write_text("\n".join([*lines, "ENDDATA", "rubbish"]) + "\n")
+
+
 class MeshFormatsTest(SceneTest):
     def nodes_after_fall(self, mesh, **settings):
         run = self.call(self.scene({**FALL, "Mesh/File": str(mesh), **settings}), "--quiet", "--output", "out")
@@ -87,9 +105,30 @@ class MeshFormatsTest(SceneTest):
             write_tetgen(self.directory / f"from{first}", first)
             files += [self.directory / f"from{first}.node", self.directory / f"from{first}.ele"]
         write_usda(self.directory / "by_hand.usda")
-        for file in [*files, self.directory / "by_hand.usda"]:
+        write_nastran(self.directory / "by_hand.bdf", "free")
+        for file in [*files, self.directory / "by_hand.usda", self.directory / "by_hand.bdf"]:
             with self.subTest(file.name):
                 self.check_fall(file, expected)
+
+    def test_nastran_by_its_digits(self):
+        write_nastran(self.directory / "large.nas", "large")
+        far = [[float(word) for word in line.split()] for line in self.nodes_after_fall("large.nas").split("\n")[2:-1]]
+        near = [[float(word) for word in line.split()] for line in self.nodes_after_fall(MESHES / "box.msh").split("\n")[2:-1]]
+        self.assertLess(max(abs(a - b) for x, y in zip(far, near) for a, b in zip(x, y)), 1e-6)
+        if shutil.which("gmsh"):  # whose small fields have six digits
+            import subprocess
+            subprocess.run(["gmsh", "-0", MESHES / "box.msh", "-o", self.directory / "gmsh.bdf", "-format", "bdf"], check=True, capture_output=True)
+            near = self.call(self.scene({**FALL, "Mesh/File": "gmsh.bdf"}), "--quiet", "--output", "out")
+            self.assertEqual(near.status, 0, near.stderr)
+
+    def test_notes_of_poses_and_units(self):
+        write_usda(self.directory / "unit.usda")
+        text = (self.directory / "unit.usda").read_text().replace("#usda 1.0", "#usda 1.0\n(\n    metersPerUnit = 0.01\n)")
+        (self.directory / "unit.usda").write_text(text)
+        for settings in ({"Mesh/File": "unit.usda"}, {"Mesh/File": str(MESHES / "box.msh"), "Initial/Pose": "unit.usda"}):
+            run = self.call(self.scene({**FALL, **settings}), "--validate")
+            self.assertEqual(run.status, 0, run.stderr)
+            self.assertIn("its unit is 0.01 m (metersPerUnit), which Mesh/Scale = 0.01 makes metres of", run.stdout + run.stderr)
 
     def test_other_ends_of_lines(self):
         expected = self.nodes_after_fall(MESHES / "box.msh")
@@ -134,6 +173,11 @@ class MeshFormatsTest(SceneTest):
         self.refuses("a.vtu", '<VTKFile type="PolyData">', "'PolyData'", "UnstructuredGrid")
         self.refuses("a.vtu", '<VTKFile type="UnstructuredGrid" compressor="vtkLZ4DataCompressor">', "vtkLZ4DataCompressor")
         self.refuses("a.node", "1 3 0 0\n1 0 0 0\n", "a.ele", "there is no such file")
+        self.refuses("a.bdf", "GRID,1,7,0.,0.,0.\n", "line 1", "coordinate system 7", "basic system")
+        self.refuses("a.bdf", "GRID,1,,0.,0.,0.\nCHEXA,1,1,1,2,3,4,5,6,7,8\n", "line 2", "CHEXA is not read")
+        self.refuses("a.bdf", "GRID,1,,0.,0.,0.\nCTETRA,1,1,1,2,3,4\n", "line 2", "element 1 uses node 2")
+        self.refuses("a.bdf", "GRID,1,,0.,x,0.\n", "line 1", "field 5 of GRID is 'x'")
+        self.refuses("a.bdf", "+,1\n", "continues an entry")
         self.refuses("a.usda", '#usda 1.0\ndef Mesh "a" {}\n', "def TetMesh")
         self.refuses("a.vtk", (MESHES / "gmsh.mesh").read_bytes(), "It is a Medit mesh. Call it a.mesh.")
 

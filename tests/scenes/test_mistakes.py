@@ -186,7 +186,7 @@ FOREIGN = [
     ("xml.xdmf", "<?xml version=\"1.0\"?>\n<Xdmf/>", "It is an XDMF file. Convert it: meshio convert xml.xdmf", "an XDMF file, not a surface"),
     ("a.npz", "PK\x03\x04", "It is an archive of numpy's arrays. Meshes are read", "arrays, not a surface"),
     ("zip.msh", "PK\x03\x04", "It is a packed file. Unpack", "It is a packed file. Unpack"),
-    ("a.bdf", "GRID\n", "gmsh a.bdf -save", "not a surface"),
+    ("a.bdf", "GRID\n", "line 1: field 2 of GRID is ''", "not a surface"),
     ("a.unv", "    -1\n", "gmsh a.unv -save", "not a surface"),
     ("a.med", "HDF", "meshio convert a.med", "not a surface"),
     ("a.step", "ISO-10303-21;\n", "gmsh -3 a.step -format msh22 -o a.msh; its lengths are mostly millimetres", "gmsh -2 a.step -o a.stl"),

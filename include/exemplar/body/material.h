@@ -78,6 +78,14 @@ namespace Exemplar
     {
       std::string section, formula, curve; ///< see ElasticConstants
 
+      /// What hands and programs call it: the region of Material, or "Material".
+      std::string
+      region() const
+      {
+        const std::string prefix = "Material/region ";
+        return section.rfind(prefix, 0) == 0 ? section.substr(prefix.size()) : section;
+      }
+
       template <typename Archive>
       void
       serialize(Archive &archive, unsigned int /*version*/)

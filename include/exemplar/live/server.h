@@ -45,6 +45,10 @@ namespace Exemplar::Live
       welcome = std::move(first);
     }
 
+    /// The same where the scene has become another one: viewers that are there get them, too.
+    void
+    welcome_again(Welcome other);
+
     /// Adds a viewer; false if there are as many as are allowed.
     bool
     join(const std::shared_ptr<Viewer> &viewer);
@@ -74,6 +78,9 @@ namespace Exemplar::Live
     }
 
   private:
+    void
+    send_welcome(Viewer &viewer) const;
+
     void
     give_mouse_to(Viewer *viewer);
 

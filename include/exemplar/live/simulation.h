@@ -16,19 +16,20 @@
 
 namespace Exemplar::Live
 {
-  /// Functions by which the solver's thread sends to viewers; both may be called from any thread.
-  struct Outbox
-  {
-    std::function<void(Bytes)>       frame;
-    std::function<void(std::string)> text; ///< JSON
-  };
-
   /// The messages that a viewer gets first.
   struct Welcome
   {
     std::string        scene; ///< JSON, see doc/live.md
     std::string        state; ///< JSON, the newest
     std::vector<Bytes> binaries;
+  };
+
+  /// Functions by which the solver's thread sends to viewers; all may be called from any thread.
+  struct Outbox
+  {
+    std::function<void(Bytes)>       frame;
+    std::function<void(std::string)> text;    ///< JSON
+    std::function<void(Welcome)>     welcome; ///< for all viewers: the scene is another one
   };
 
   /// The simulation in its own thread: steps of one length at the pace of the clock, between which
@@ -82,6 +83,10 @@ namespace Exemplar::Live
 
     void
     save_pose();
+
+    /// Let what the body is now be one more example, and begin anew with it.
+    void
+    add_example();
 
     void
     show_frame();

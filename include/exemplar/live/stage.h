@@ -101,6 +101,12 @@ namespace Exemplar::Live
     void
     begin_anew();
 
+    /// Let the positions be one more example, and go back to the beginning of the scene that has it. The recording since
+    /// then is kept under other names. Returns the example's name, the file of the pose if there is a recording. Throws
+    /// UserError, with the body unchanged, for a scene that takes no more examples.
+    std::string
+    add_example();
+
     /// Write to disk all that is not there yet.
     void
     save();

@@ -22,6 +22,9 @@ namespace Exemplar
   read_abaqus(std::string bytes, const std::string &name);
 
   MshFile
+  read_nastran(std::string bytes, const std::string &name);
+
+  MshFile
   read_usd(std::string bytes, const std::string &name);
 
   /// `nodes` and `cells` are the bytes of .node and .ele, `faces` those of .face, or empty.

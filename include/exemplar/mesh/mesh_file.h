@@ -15,7 +15,7 @@ namespace Exemplar
   is_mesh_file(const std::filesystem::path &file);
 
   /// Read a mesh by the reader of its extension: Medit (.mesh), legacy VTK (.vtk), VTK XML (.vtu),
-  /// TetGen (.node and .ele, either named), Abaqus and CalculiX (.inp), USD's TetMesh (.usda, .usd),
+  /// TetGen (.node and .ele, either named), Abaqus and CalculiX (.inp), USD's TetMesh (.usda), Nastran (.bdf, .nas),
   /// and for all others read_msh(). Regions and boundaries become physical tags, names of sets
   /// physical names; MshFile::note says what was taken for what, and what was left out. Nodes and
   /// elements have the numbers of the file, or are counted from 1. Throws UserError with file, line,

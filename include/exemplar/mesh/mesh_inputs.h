@@ -56,9 +56,13 @@ namespace Exemplar
   /// Places of the nodes in a pose of `mesh`, not scaled: the file must have the same node
   /// numbers and tetrahedra in the same order. If these have 10 nodes, places of the middles of
   /// edges_of() follow. Throws UserError naming the first difference;
-  /// `mesh_name` stands for the mesh there.
+  /// `mesh_name` stands for the mesh there. Of a mesh of several files the pose may be of one, see pose_of_one_file().
+  /// What the reader has to say, MshFile::note, goes to `note` unless that is null.
   std::vector<dealii::Point<3>>
-  read_pose(const std::filesystem::path &file, const MshFile &mesh, const std::string &mesh_name);
+  read_pose(const std::filesystem::path &file,
+            const MshFile               &mesh,
+            const std::string           &mesh_name,
+            std::string                 *note = nullptr);
 
   /// Indices of the nodes that a file lists by their numbers in `mesh`, ascending: a text of
   /// numbers between blanks, commas or semicolons, with comments from # to the end of the line, or

@@ -24,7 +24,18 @@ namespace Exemplar
     shell  ///< triangles, which have a thickness
   };
 
-  /// Subsection Mesh. Exactly one of `file` and `generator` must be given, unless a program passes
+  /// A file of Mesh/Files, and where it stands: subsection Mesh/NAME.
+  struct PlacedFile
+  {
+    std::string           name; ///< that of the file without directory and extension
+    double                scale = 1.;
+    std::array<double, 3> displacement{ { 0., 0., 0. } }; ///< after scaling, in the mesh's unit
+
+    void
+    declare(KeyTable &keys);
+  };
+
+  /// Subsection Mesh. Exactly one of `file`, `files` and `generator` must be given, unless a program passes
   /// its own mesh.
   ///
   /// The box is [0,Lx] x [-Ly/2,Ly/2] x [-Lz/2,Lz/2], cut into nx x ny x nz bricks
@@ -35,6 +46,8 @@ namespace Exemplar
   {
     MeshKind                    kind = MeshKind::solid;
     std::string                 file;
+    std::vector<std::string>    files;             ///< several meshes in one scene
+    std::vector<PlacedFile>     placed;            ///< of `files`, in their order
     std::string                 surface;           ///< a file; empty: see surface_file()
     std::vector<std::string>    carried;           ///< files of surfaces that are carried along
     unsigned int                n_cells   = 10000; ///< number wanted, if `file` is a surface
@@ -50,7 +63,12 @@ namespace Exemplar
     void
     declare(KeyTable &keys);
 
-    /// Name of the mesh in messages: the file, "box" or, with neither, "mesh".
+    /// Names of `files`: those of the files without directory and extension, with " 2", " 3" behind one that is there
+    /// again. Throws UserError for a file that is a surface and for names that are the same or no names of subsections.
+    std::vector<std::string>
+    names_of_files() const;
+
+    /// Name of the mesh in messages: the file or files, "box" or, with neither, "mesh".
     std::string
     name() const;
 

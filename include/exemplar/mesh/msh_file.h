@@ -30,6 +30,17 @@ namespace Exemplar
     std::array<double, 4>      shares; ///< barycentric coordinates, sum 1
   };
 
+  /// A file of a mesh that was joined of several.
+  struct JoinedFile
+  {
+    std::string          name;          ///< of the file in the scene
+    std::size_t          first_node;    ///< index of its first node
+    std::size_t          n_nodes;       ///< they follow each other
+    std::size_t          first_element; ///< index of its first element
+    double               scale;         ///< of its own [-]
+    dealii::Tensor<1, 3> displacement;  ///< after that, in the unit of the joined mesh
+  };
+
   /// The contents of a gmsh .msh file: everything needed to write it back with
   /// the same node and element numbers, order and tags.
   struct MshFile
@@ -47,7 +58,8 @@ namespace Exemplar
     /// edges are long at rest; empty: none are known. A section of our own, $NormalTips, has them: their number, and a line of
     /// three coordinates each.
     std::vector<dealii::Point<3>> normal_tips = {};
-    std::string note = {}; ///< for the user, on conversions of the file; empty: none
+    std::vector<JoinedFile> files = {}; ///< empty unless it was joined of several, see join_meshes()
+    std::string             note  = {}; ///< for the user, on conversions of the file; empty: none
     /// Restrictions of gmsh when it made this of a .geo ("text", "seccomp", "landlock"); no value
     /// if it was not made of one.
     std::optional<std::vector<std::string>> geo_walls = {};

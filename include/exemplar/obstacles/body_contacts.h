@@ -6,7 +6,9 @@
 #include <exemplar/obstacles/contact_surface.h>
 
 #include <cstdint>
+#include <set>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace Exemplar
@@ -64,6 +66,8 @@ namespace Exemplar
     /// Of pairs that are nearer than `width` at rest or where the body begins: half of that, or 0 for those that are left out.
     std::unordered_map<std::uint64_t, double> own_widths;
     std::vector<std::string> left_out; ///< texts of the selections that never touch each other
+    /// Nodes that are tied, with the pieces that they are tied to and do not meet.
+    std::set<std::pair<unsigned int, unsigned int>> tied;
 
     /// In which of these selections a node lies, a bit each.
     std::uint64_t

@@ -37,6 +37,13 @@ namespace Exemplar
     Value
     at(double stretch) const;
 
+    /// Whether f = 1: then at() is { stretch - 1, 1, 0 } from least_stretch on.
+    bool
+    is_constant() const
+    {
+      return table.empty();
+    }
+
   private:
     /// The same without the parabola.
     Value
@@ -125,6 +132,9 @@ namespace Exemplar
       change(const Vector3<double> &of_now, Tangent kind) const;
     };
 
+    /// Of a cell whose tension is the scene's, among tensions that are held.
+    static constexpr double not_held = -1.;
+
     /// None where the cell has no active fibres.
     std::optional<Fibre>
     fibre(unsigned int point, const Vector &positions) const;
@@ -145,11 +155,20 @@ namespace Exemplar
     std::vector<double>
     tensions_at(double time) const;
 
+    /// add(), with so many nodes a cell.
+    template <typename Number>
+    void
+    add_all(const Vector &positions, ElasticSums &sums, Number n_nodes) const;
+
+    /// Keep the shape gradients along the fibres.
+    void
+    keep_shares();
+
     /// Shape gradients along the fibre at a point, in the order of `nodes`.
     void
     along_fibre(unsigned int                          point,
                 dealii::ArrayView<const unsigned int> nodes,
-                std::vector<double>                  &shares) const;
+                std::vector<double>                  &along_nodes) const;
 
     const FibreTensions       &of_material;
     const Material            &material;
@@ -157,6 +176,8 @@ namespace Exemplar
     const std::vector<double> &held;
     std::vector<Law>           laws; ///< in the order of FibreTensions::sources
     std::vector<unsigned int>  active_cells;
+    std::vector<double>
+        shares; ///< shape gradients along the fibre, of the active cells' points and nodes in order
     std::vector<double>        tension;
     double                     time = 0.;
     std::optional<CellScatter> scatter; ///< since attach()

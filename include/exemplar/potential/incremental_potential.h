@@ -95,6 +95,10 @@ namespace Exemplar
     void
     set_time(double time, State &state);
 
+    /// The same of the terms alone: their tangents may depend on it.
+    void
+    set_time_of_terms(double time);
+
     /// Whether the loads or prescribed weights of time t [s] are others than those of a state.
     bool
     is_driven(const State &from, double time) const;

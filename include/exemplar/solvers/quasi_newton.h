@@ -56,6 +56,7 @@ namespace Exemplar
       std::vector<double> weights;   ///< then, which some convex tangents know
       NodePairs           couplings; ///< of terms, then
       State               start; ///< of the step, if the energy changes between steps; else empty
+      double              time            = 0.; ///< of that step's end [s]
       double              step_size       = 0.; ///< [s]
       double              mass_factor     = 0.; ///< IncrementalPotential::mass_factor() then
       unsigned int        steps           = 0;  ///< since then
@@ -68,8 +69,8 @@ namespace Exemplar
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
-        archive &positions &weights &couplings &start &step_size &mass_factor &steps &iterations
-            &last_iterations &contact_steps &contact_iterations &last_in_contact;
+        archive &positions &weights &couplings &start &time &step_size &mass_factor &steps
+            &iterations &last_iterations &contact_steps &contact_iterations &last_in_contact;
       }
     };
 
@@ -146,7 +147,7 @@ namespace Exemplar
 
     /// After a resume: rotations are functions of the positions.
     void
-    rebuild_metrics(const State &accepted, double step_size);
+    rebuild_metrics(const State &accepted, double step_size, double time);
 
     /// Gather the gradient at the trial, and the part of it that gaps make.
     void

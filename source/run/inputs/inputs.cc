@@ -56,6 +56,10 @@ namespace Exemplar
                                    "a mesh (" + mesh_extensions
                                        + ", .geo) or of a surface (.obj, .ply or .stl)");
                     });
+        if (inputs.mesh.nodes.empty())
+          for (const std::string &file : scene.mesh.files)
+            under_key("Mesh/Files",
+                      [&] { require_file(file, "a mesh (" + mesh_extensions + ")"); });
         for_each_pose([this](const std::string &file) { check(file); });
         if (scene.needs_surface())
           add_surface();
@@ -130,9 +134,12 @@ namespace Exemplar
       void
       add(const std::string &file)
       {
+        std::string note;
         inputs.poses[file] = is_shell()              ? read_shell_pose(file, inputs.mesh, name)
                              : is_surface_file(file) ? surfaces.carry(file, inputs.mesh)
-                                                     : read_pose(file, inputs.mesh, name);
+                                                     : read_pose(file, inputs.mesh, name, &note);
+        if (!note.empty())
+          inputs.mesh.note += (inputs.mesh.note.empty() ? "" : " ") + file + ": " + note;
       }
 
       void

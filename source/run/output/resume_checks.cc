@@ -108,6 +108,8 @@ namespace Exemplar
       const MeshParameters &mesh  = scene.get_parameters().mesh;
       std::vector<std::pair<std::string, std::string>> fixed
           = { { "mesh ", mesh.file }, { "surface ", mesh.surface } };
+      for (const std::string &file : mesh.files)
+        fixed.emplace_back("mesh ", file);
       for (const std::string &file : mesh.carried)
         fixed.emplace_back("surface ", file);
       for (const auto &[what, name] : fixed)

@@ -206,10 +206,22 @@ namespace Exemplar
     }
     account.lap();
     at_root([] {}); // throws if the directory is gone
-    const auto mesh_digest = input_digests.find(problem.parameters.mesh.file);
-    write_summary(problem, get_totals(), last,
-                  mesh_digest != input_digests.end() ? mesh_digest->second : "generated", status,
-                  warnings, directory.get_files().summary());
+    write_summary(problem, get_totals(), last, mesh_digest(), status, warnings,
+                  directory.get_files().summary());
+  }
+
+  std::string
+  RunWriter::mesh_digest() const
+  {
+    const MeshParameters &mesh = problem.parameters.mesh;
+    std::string           all;
+    for (const std::string &file : mesh.files)
+      if (const auto found = input_digests.find(file); found != input_digests.end())
+        all += found->second + "\n";
+    if (!all.empty())
+      return sha256_of_text(all);
+    const auto found = input_digests.find(mesh.file);
+    return found != input_digests.end() ? found->second : "generated";
   }
 
   void

@@ -144,9 +144,10 @@ namespace Exemplar
                              [&](const unsigned int node)
                              { return (contacts.selections_of(node) >> i & 1U) != 0; });
         };
-        const auto n_nodes = std::count_if(surface.nodes.begin(), surface.nodes.end(),
-                                           [&](const ContactSurface::Node &at)
-                                           { return lies_in(std::array<unsigned int, 1>{ { at.node } }); });
+        const auto n_nodes
+            = std::count_if(surface.nodes.begin(), surface.nodes.end(),
+                            [&](const ContactSurface::Node &at)
+                            { return lies_in(std::array<unsigned int, 1>{ { at.node } }); });
         if (n_nodes == 0)
           throw UserError("Contact/Leave out: '" + contacts.left_out[i]
                           + "' has no node of the body's surface, which alone touches anything. "

@@ -193,7 +193,8 @@ namespace Exemplar
     const bool has_obstacles = !parameters.obstacles.empty();
     if (has_obstacles && parameters.obstacles.free != FreeBodies::refused)
       return;
-    const auto free_of_pieces = n_free_rigid_motions(body.mesh, body.fe_space, handles.held_dofs());
+    const auto free_of_pieces = n_free_rigid_motions(body.mesh, body.fe_space, handles.held_dofs(),
+                                                     body.ties.joined_pieces());
     const auto loose          = std::max_element(free_of_pieces.begin(), free_of_pieces.end());
     const unsigned int n_free = *loose;
     const std::string  of_piece

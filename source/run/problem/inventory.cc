@@ -64,6 +64,7 @@ namespace Exemplar
         has_gravity ? 0 : loads },
       { "obstacles", actions.obstacles != nullptr, memory_of_term(problem, "obstacles") },
       { "body contact", actions.body_contacts != nullptr, memory_of_term(problem, "body contact") },
+      { "ties", !problem.body.ties.empty(), memory_of_term(problem, "ties") },
       { "initial stresses", !actions.initial_stresses.empty(),
         memory_of_term(problem, "initial stress") },
       { "plastic cells", problem.has_trait(&ModelTraits::plastic_strain), {} },

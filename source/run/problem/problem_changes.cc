@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/potential/fibre_tension_term.h>
 #include <exemplar/potential/load_term.h>
 #include <exemplar/potential/obstacle_term.h>
 #include <exemplar/run/problem/obstacle_start.h>
@@ -234,6 +235,37 @@ namespace Exemplar
             key, cell));
     actions.held_tensions = std::move(tensions);
     refresh(new_loads);
+  }
+
+  unsigned int
+  Problem::check_tension(const std::string &region, const double tension) const
+  {
+    const auto  &sources = body.material.tensions().sources;
+    std::string  names;
+    unsigned int found = 0;
+    for (; found < sources.size() && sources[found].region() != region; ++found)
+      names += (names.empty() ? "" : ", ") + sources[found].region();
+    if (found == sources.size())
+      throw UserError("Material/Fibre tension: there are no active fibres in the region '" + region
+                      + "'. Allowed: " + (names.empty() ? "none" : names) + ".");
+    if (!(tension >= 0. && std::isfinite(tension)))
+      throw UserError("Material/Fibre tension: '" + region + "' would get " + short_text(tension)
+                      + " Pa, but fibres do not push. Give at least 0.");
+    return found;
+  }
+
+  void
+  Problem::set_tension(const std::string &region, const double tension)
+  {
+    const FibreTensions &all = body.material.tensions();
+    const unsigned int   law = check_tension(region, tension) + 1;
+    if (actions.held_tensions.empty())
+      actions.held_tensions.assign(all.of_cells.size(), FibreTensionTerm::not_held);
+    for (std::size_t cell = 0; cell < all.of_cells.size(); ++cell)
+      if (all.of_cells[cell] == law)
+        actions.held_tensions[cell] = all.factors.empty() ? tension : tension * all.factors[cell];
+    refresh(new_loads);
+    solver->forget(); // a resumed session could not make the factor of another tension again
   }
 
   void

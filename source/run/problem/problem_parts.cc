@@ -6,6 +6,7 @@
 #include <exemplar/potential/load_term.h>
 #include <exemplar/potential/obstacle_term.h>
 #include <exemplar/potential/shell_body.h>
+#include <exemplar/potential/tie_term.h>
 #include <exemplar/run/problem/problem_parts.h>
 
 #include <algorithm>
@@ -60,8 +61,10 @@ namespace Exemplar
             parameters.name
             + ": Contact/Bodies = true keeps pieces of the mesh out of each other, but it is "
               "in one piece. Set Contact/Self = true, or Contact/Bodies = false.");
-      return std::make_unique<BodyContacts>(parameters.contact, body.mesh, body.fe_space,
-                                            inputs.fields.nodes);
+      auto contacts  = std::make_unique<BodyContacts>(parameters.contact, body.mesh, body.fe_space,
+                                                     inputs.fields.nodes);
+      contacts->tied = body.ties.pieces_of_nodes();
+      return contacts;
     }
 
     /// Whether steps minimise one energy, the same before and after a step.
@@ -104,6 +107,19 @@ namespace Exemplar
         sections.push_back({ thicknesses[cell], shell_elasticity(material, cell, kind) });
       return sections;
     }
+
+    Ties
+    make_ties(const SceneParameters &parameters,
+              const Mesh            &mesh,
+              const FESpace         &fe_space,
+              const NamedNodes      &named)
+    {
+      if (!parameters.ties.empty() && mesh.exchange().n_processes() > 1)
+        throw UserError(parameters.name
+                        + ": Ties are not for several processes yet, of which none knows the "
+                          "pieces of another. Start one, or leave Ties/Names empty.");
+      return { parameters.ties, mesh, fe_space, named };
+    }
   } // namespace
 
   Body::Body(const SceneParameters &parameters, BodyInputs &inputs)
@@ -114,6 +130,7 @@ namespace Exemplar
                      sections_of(inputs.fields.thicknesses, material, parameters.model.shell),
                      parameters.model.shell)
                                  : FESpace(mesh, parameters.model.element)),
+        ties(make_ties(parameters, mesh, fe_space, inputs.fields.nodes)),
         patches(inputs.fields.patches, fe_space, material),
         cell_material(patches.rest_of(material)), made(inputs.undivided.made),
         geo_walls(inputs.undivided.geo_walls), warnings(inputs.undivided.warnings),
@@ -161,6 +178,7 @@ namespace Exemplar
         contact_surface(obstacles == nullptr && body_contacts == nullptr
                             ? nullptr
                             : std::make_unique<ContactSurface>(body.mesh, body.fe_space)),
+        notes(body.ties.get_notes()),
         energy_is_bounded(integrator != nullptr && integrator->is_undamped_implicit_euler()
                           && has_one_energy(parameters))
   {
@@ -255,6 +273,8 @@ namespace Exemplar
     if (body_contacts != nullptr)
       terms.push_back(std::make_unique<BodyContactTerm>(*body_contacts, *contact_surface,
                                                         body.material, integrator_of_terms));
+    if (!body.ties.empty())
+      terms.push_back(std::make_unique<TieTerm>(body.ties, body.material));
     if (!body.material.tensions().sources.empty())
       terms.push_back(
           std::make_unique<FibreTensionTerm>(body.material, body.fe_space, held_tensions));

@@ -46,6 +46,8 @@ namespace Exemplar
           use_handle(event);
         else if (event.what == "importance")
           problem.check_importance(event.numbers[0]);
+        else if (event.what == "tension")
+          problem.check_tension(event.name, event.numbers[0]);
         else if (event.what == "weights")
           problem.examples.weights.check_held(event.numbers);
         else if (event.what == "damping")

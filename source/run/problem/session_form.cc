@@ -31,6 +31,7 @@ namespace Exemplar
                                                   { "poisson", { 0, 1 } },
                                                   { "density", { 0, 1 } },
                                                   { "importance", { 0, 1 } },
+                                                  { "tension", { 0, 1 } },
                                                   { "weights", { 0, any_number } },
                                                   { "gravity", { 0, 3 } },
                                                   { "damping", { 0, 2 } },

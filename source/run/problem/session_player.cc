@@ -39,6 +39,8 @@ namespace Exemplar
       problem.set_material(*constants);
     else if (event.what == "importance")
       problem.set_importance(numbers[0]);
+    else if (event.what == "tension")
+      problem.set_tension(event.name, numbers[0]);
     else if (event.what == "weights")
       problem.hold_weights(numbers);
     else if (event.what == "gravity")

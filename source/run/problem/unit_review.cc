@@ -58,11 +58,11 @@ namespace Exemplar
     Warning
     review_size(const Problem &problem, const BodyMeasures &measures)
     {
-      const double          length               = measures.length();
-      const MeshParameters &mesh                 = problem.parameters.mesh;
-      const bool            is_soft_and_unscaled = masses_matter(problem)
-                                        && measures.young.maximum < soft_as_rubber
-                                        && !mesh.file.empty() && mesh.scale == 1.;
+      const double          length = measures.length();
+      const MeshParameters &mesh   = problem.parameters.mesh;
+      const bool            is_soft_and_unscaled
+          = masses_matter(problem) && measures.young.maximum < soft_as_rubber
+            && !(mesh.file.empty() && mesh.files.empty()) && mesh.scale == 1.;
       if (length >= great_length || (length >= great_soft_length && is_soft_and_unscaled))
         return "The body is " + short_text(length)
                + " m long. If its mesh is in millimetres: " + scale_remedy;

@@ -38,7 +38,7 @@ namespace Exemplar
         for (const Selection &end : { ends->from, ends->to })
           append_names(end, key.path(), names);
     }
-    else if (key.key == "Select")
+    else if (key.key == "Select" || key.key == "To")
       append_names(Selection{ key.value }, key.path(), names);
     else if (key.key == "Leave out")
       for (const std::string &text : split_trimmed(key.value, ';'))

@@ -63,7 +63,8 @@ namespace Exemplar
                 const std::vector<Assignment>  &others,
                 const std::vector<Assignment>  &overrides,
                 const std::string              &section,
-                const std::vector<std::string> &names)
+                const std::vector<std::string> &names,
+                const std::string              &list)
   {
     const auto is_unlisted = [&](const Assignment &a)
     {
@@ -79,13 +80,13 @@ namespace Exemplar
     const auto told = [&](const Assignment &a)
     {
       return a.place + ": subsection " + section + "/" + a.subsections[1] + " is not in " + section
-             + "/Names (there: " + (names.empty() ? "none" : joined(names)) + ")";
+             + "/" + list + " (there: " + (names.empty() ? "none" : joined(names)) + ")";
     };
     for (const Assignment &a : overrides)
       if (is_unlisted(a))
         throw UnknownKey(told(a) + ". " + remedy_of_name(a.subsections[1], section, names));
-    const bool               is_forgotten = find_assignment(others, section + "/Names") == nullptr;
-    std::set<std::string>    seen;
+    const bool            is_forgotten = find_assignment(others, section + "/" + list) == nullptr;
+    std::set<std::string> seen;
     std::vector<std::string> warnings;
     for (const Assignment &a : named)
     {

@@ -44,7 +44,7 @@ namespace Exemplar
     }
 
     /// Whether the subsection is named, that is two deep: Handles/NAME, Loads/NAME, Obstacles/NAME,
-    /// Material/region N.
+    /// Ties/NAME, Mesh/NAME, Material/region N.
     bool
     is_named(const Assignment &assignment)
     {
@@ -134,11 +134,14 @@ namespace Exemplar
     check_names(handle_names, "Handles");
     check_names(load_names, "Loads");
     check_names(obstacle_names, "Obstacles");
+    check_names(tie_names, "Ties");
     refuse_misspelt_names(unknown);
-    std::vector<std::string> warnings;
+    const std::vector<std::string> mesh_names = parameters.mesh.names_of_files();
+    std::vector<std::string>       warnings
+        = drop_unlisted(named, assignments, overrides, "Mesh", mesh_names, "Files");
     for (const auto &[section, names] :
          { std::pair("Handles", &handle_names), std::pair("Loads", &load_names),
-           std::pair("Obstacles", &obstacle_names) })
+           std::pair("Obstacles", &obstacle_names), std::pair("Ties", &tie_names) })
       for (const std::string &warning :
            drop_unlisted(named, assignments, overrides, section, *names))
         warnings.push_back(warning);
@@ -173,7 +176,8 @@ namespace Exemplar
     for (const Assignment &a : unknown)
       if (a.subsections == std::vector<std::string>{ "Handles" }
           || a.subsections == std::vector<std::string>{ "Loads" }
-          || a.subsections == std::vector<std::string>{ "Obstacles" })
+          || a.subsections == std::vector<std::string>{ "Obstacles" }
+          || a.subsections == std::vector<std::string>{ "Ties" })
         if (is_near(a.key, "Names"))
           keys.apply({ a }, directory());
   }
@@ -210,6 +214,11 @@ namespace Exemplar
     parameters.obstacles.declare(keys);
     keys.leave_subsection();
     parameters.contact.declare(keys);
+    keys.enter_subsection("Ties");
+    keys.add_names("Names", tie_names,
+                   "Names of what ties nodes of a piece of the mesh to places of another one, "
+                   "separated by commas; each has a subsection.");
+    keys.leave_subsection();
     parameters.initial.declare(keys);
     parameters.time.declare(keys);
     parameters.solver.declare(keys);
@@ -242,9 +251,11 @@ namespace Exemplar
       }
       keys.leave_subsection();
     };
+    declare_named("Mesh", parameters.mesh.names_of_files(), parameters.mesh.placed);
     declare_named("Handles", handle_names, parameters.handles);
     declare_named("Loads", load_names, parameters.loads.named);
     declare_named("Obstacles", obstacle_names, parameters.obstacles.named);
+    declare_named("Ties", tie_names, parameters.ties);
   }
 
   void
@@ -286,9 +297,11 @@ namespace Exemplar
   {
     SceneFile samples;
     samples.declare_sections();
-    samples.handle_names   = { "NAME" };
-    samples.load_names     = { "NAME" };
-    samples.obstacle_names = { "NAME" };
+    samples.parameters.mesh.files = { "NAME.msh" };
+    samples.handle_names          = { "NAME" };
+    samples.load_names            = { "NAME" };
+    samples.obstacle_names        = { "NAME" };
+    samples.tie_names             = { "NAME" };
     samples.declare_named_subsections({ { { "Material", "region 1" }, "", "", "" } });
     return samples.get_keys();
   }

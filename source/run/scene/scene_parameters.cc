@@ -105,6 +105,7 @@ namespace Exemplar
                "stiffness or Fibre tension and Material/Fibre direction, or Examples/Acts on = "
                "all." } });
     check_tension();
+    check_ties();
     check_laws();
     check_starts();
     check_solver();
@@ -148,6 +149,28 @@ namespace Exemplar
                key
                    + "is no load that initial stresses bear. Set Loads/Balanced = false, or Fibre "
                      "tension = 0." } });
+  }
+
+  void
+  CompleteScene::check_ties() const
+  {
+    if (ties.empty())
+      return;
+    for (const TieParameters &tie : ties)
+      tie.check();
+    const std::string key = "Ties/Names lists what ties pieces of the mesh to each other, but ";
+    refuse({ { scene == SceneKind::interpolation,
+               key
+                   + "an interpolation has no forces. Set Scene = static or dynamic, or leave "
+                     "Ties/Names empty." },
+             { loads.balanced,
+               key
+                   + "Loads/Balanced = true lets handles bear the loads. Set Loads/Balanced = "
+                     "false, or leave Ties/Names empty." },
+             { output.space_error != SpaceErrorUse::never,
+               key
+                   + "Output/Space error compares with a body that is tied at other nodes, too. "
+                     "Set Output/Space error = false." } });
   }
 
   void
@@ -273,6 +296,12 @@ namespace Exemplar
       all.emplace_back(handle.select, "Handles/" + handle.name + "/Select");
     for (const LoadParameters &load : loads.named)
       all.emplace_back(load.select, "Loads/" + load.name + "/Select");
+    for (const TieParameters &tie : ties)
+    {
+      all.emplace_back(tie.select, "Ties/" + tie.name + "/Select");
+      if (!tie.to.text.empty())
+        all.emplace_back(tie.to, "Ties/" + tie.name + "/To");
+    }
     return all;
   }
 

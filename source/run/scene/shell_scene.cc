@@ -95,6 +95,10 @@ namespace Exemplar
                 + mesh.file
                 + " is none. Give an .obj, .ply or .stl, or set Output/Formats = vtu." },
           { !mesh.carried.empty(), key + "Mesh/Carry is not for shells. Remove it." },
+          { !mesh.files.empty() || !ties.empty(),
+            key
+                + "Mesh/Files and Ties are not for shells yet. Give one Mesh/File, in pieces if "
+                  "need be." },
           { loads.balanced, key + "Loads/Balanced = true is not for shells yet. Set it to false." },
           { examples.acts_on != ActsOn::all || examples.elasticity().is_own(),
             key

@@ -88,6 +88,10 @@ namespace Exemplar
     void
     write_rest_mesh() const;
 
+    /// SHA-256 of the mesh file; of several, of the lines of theirs.
+    std::string
+    mesh_digest() const;
+
     void
     write_final_pose() const;
 

@@ -86,6 +86,15 @@ namespace Exemplar
     void
     set_tension(std::vector<double> tensions);
 
+    /// The same of one region, FibreTensions::Source::region(), times its painted factors; others keep what they have.
+    void
+    set_tension(const std::string &region, double tension);
+
+    /// The number of the region among FibreTensions::sources. Throws UserError if it has no active fibres, or for a
+    /// negative tension [Pa].
+    unsigned int
+    check_tension(const std::string &region, double tension) const;
+
     /// Between steps, replace the pose of example i, counted as the weights, by these positions of
     /// the nodes [m]. Handles that follow a pose keep the earlier one. Throws UserError, with
     /// nothing changed, for the rest pose, a missing example, and positions that are no valid pose.

@@ -11,6 +11,7 @@
 #include <exemplar/obstacles/body_contacts.h>
 #include <exemplar/obstacles/contact_surface.h>
 #include <exemplar/obstacles/obstacles.h>
+#include <exemplar/obstacles/ties.h>
 #include <exemplar/potential/elastic_potential.h>
 #include <exemplar/potential/incremental_potential.h>
 #include <exemplar/potential/initial_stress_term.h>
@@ -51,6 +52,7 @@ namespace Exemplar
     const Mesh    mesh;
     Material      material; ///< C, or C' of Eq. (38)
     const FESpace fe_space;
+    const Ties    ties;          ///< between pieces; none without Ties/Names
     Patches       patches;       ///< regions of one mean dilatation; none: by cell
     Material      cell_material; ///< for the cells' own energy
     /// Report on mesh and poses made of surfaces; null if none were.

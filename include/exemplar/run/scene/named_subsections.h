@@ -12,15 +12,16 @@ namespace Exemplar
   check_names(const std::vector<std::string> &names, const std::string &section);
 
   /// Remove from `named`, assignments in named subsections, those in subsections of `section` that
-  /// its Names does not list, and return a warning for each such subsection. Throws UnknownKey if
-  /// `overrides` set one of them while `others` do not set Names, and if one may be a misspelling
+  /// the key `list` of it, such as Names, does not list, and return a warning for each such subsection. Throws UnknownKey if
+  /// `overrides` set one of them while `others` do not set that key, and if one may be a misspelling
   /// of a listed name that has no subsection.
   std::vector<std::string>
   drop_unlisted(std::vector<Assignment>        &named,
                 const std::vector<Assignment>  &others,
                 const std::vector<Assignment>  &overrides,
                 const std::string              &section,
-                const std::vector<std::string> &names);
+                const std::vector<std::string> &names,
+                const std::string              &list = "Names");
 } // namespace Exemplar
 
 #endif

@@ -107,6 +107,7 @@ namespace Exemplar
     std::vector<std::string>     handle_names;
     std::vector<std::string>     load_names;
     std::vector<std::string>     obstacle_names;
+    std::vector<std::string>     tie_names;
   };
 } // namespace Exemplar
 

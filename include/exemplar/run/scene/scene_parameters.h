@@ -11,6 +11,7 @@
 #include <exemplar/mesh/mesh_parameters.h>
 #include <exemplar/obstacles/contact_parameters.h>
 #include <exemplar/obstacles/obstacle_parameters.h>
+#include <exemplar/obstacles/tie_parameters.h>
 #include <exemplar/run/scene/initial_parameters.h>
 #include <exemplar/run/scene/output_parameters.h>
 #include <exemplar/solvers/solver_parameters.h>
@@ -46,6 +47,7 @@ namespace Exemplar
     LoadsParameters               loads;
     ObstaclesParameters           obstacles;
     ContactParameters             contact;
+    std::vector<TieParameters>    ties;
     InitialParameters             initial;
     TimeParameters                time;
     SolverParameters              solver;
@@ -53,7 +55,7 @@ namespace Exemplar
     std::string                   session;  ///< file of the recorded session; empty: none
     std::vector<std::string>      warnings; ///< about text of the scene without effect
 
-    /// Select of all handles and loads.
+    /// Select of all handles and loads, and those of ties.
     KeyedSelections
     selects() const;
 
@@ -121,6 +123,9 @@ namespace Exemplar
     /// Throws UserError for what shells have no place for, and for what only they have.
     void
     check_shell() const;
+
+    void
+    check_ties() const;
 
     void
     check_starts() const;
