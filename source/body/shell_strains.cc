@@ -316,7 +316,10 @@ namespace Exemplar
     const ShellEdge      &of    = mesh.edges()[edge];
     const Vector3<double> begin = place_in(positions, of.begin), end = place_in(positions, of.end);
     const HingeSide<double> side(begin, end, place_in(positions, of.opposite[0]));
-    const double            turn = 0.5 * angle_of_triangles(edge, positions)
+    const HingeSide<double> rest(mesh.vertex(of.begin), mesh.vertex(of.end),
+                                 mesh.vertex(of.opposite[0]));
+    const double            turn = std::atan2(dot(of.normal, rest.t), dot(of.normal, rest.n))
+                        + 0.5 * (angle_of_triangles(edge, positions) - of.angle)
                         + positions[3 * mesh.slope_node(edge)] / of.length;
     const Vector3<double> normal = combine(std::cos(turn), side.n, std::sin(turn), side.t);
     return combine(1., combine(0.5, begin, 0.5, end), of.length, normal);

@@ -45,7 +45,7 @@ namespace Exemplar
     double
     norm_in_plane(const std::array<double, 2> &g)
     {
-      return std::hypot(g[0], g[1]);
+      return std::sqrt(g[0] * g[0] + g[1] * g[1]);
     }
 
     double

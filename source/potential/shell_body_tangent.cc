@@ -37,7 +37,7 @@ namespace Exemplar
   } // namespace
 
   SymmetricPattern
-  ShellBody::make_pattern(const NodePairs &more, bool /*in_parts*/) const
+  ShellBody::make_pattern(const NodePairs &more, bool in_parts) const
   {
     std::vector<std::vector<unsigned int>> neighbours(parts.mesh.n_nodes()); // and the node itself
     for (const ShellTriangle &triangle : parts.mesh.triangles())
@@ -57,6 +57,7 @@ namespace Exemplar
       of_node.erase(std::unique(of_node.begin(), of_node.end()), of_node.end());
     }
     SymmetricPattern result;
+    result.products_are_apart = in_parts; // of terms
     result.column_start.push_back(0);
     for (const unsigned int dof : parts.free_dofs.local_list())
     {

@@ -68,29 +68,30 @@ namespace Exemplar
                const Vector3<Number> &x1,
                const Vector3<Number> &x2,
                const Vector3<Number> &x3)
-        : first(x0, x1, x2), second(x1, x0, x3)
+        : x{ { x0, x1, x2, x3 } }, edge(difference(x1, x0)), a(difference(x2, x0)),
+          b(difference(x3, x0)), normal_a(cross(edge, a)), normal_b(cross(b, edge)),
+          square(dot(edge, edge)), length(sqrt(square))
     {
-      using std::atan2;
-      const Vector3<Number> edge = difference(x1, x0);
-      const Vector3<Number> a = difference(x2, x0), b = difference(x3, x0);
-      angle = atan2(first.length * dot(edge, cross(b, a)), dot(cross(edge, a), cross(b, edge)));
     }
 
     Number
     value() const
     {
-      return angle;
+      using std::atan2;
+      return atan2(length * dot(edge, cross(b, a)), dot(normal_a, normal_b));
     }
 
     /// Its derivatives by the four nodes [1/m]: -n/h at an apex.
     HingeForm<Number>
     gradient() const
     {
-      const auto rho_1 = first.of_height(first.n), rho_2 = second.of_height(second.n);
-      const auto minus_sum = [](const Vector3<Number> &u, const Vector3<Number> &v)
-      { return combine(Number(-1.), u, Number(-1.), v); };
-      return { { minus_sum(rho_1[0], rho_2[1]), minus_sum(rho_1[1], rho_2[0]),
-                 times(Number(-1.), rho_1[2]), times(Number(-1.), rho_2[2]) } };
+      // n/h at each side, and the part of an apex in its foot at x1; without a root, as it is found in each iteration
+      const Vector3<Number> rho_a = times(length / dot(normal_a, normal_a), normal_a),
+                            rho_b = times(length / dot(normal_b, normal_b), normal_b);
+      const Number per_square     = Number(1.) / square;
+      const Number s = per_square * dot(a, edge), t = per_square * dot(b, edge);
+      return { { combine(Number(1.) - s, rho_a, Number(1.) - t, rho_b), combine(s, rho_a, t, rho_b),
+                 times(Number(-1.), rho_a), times(Number(-1.), rho_b) } };
     }
 
     /// Its second derivative, the sum of four products. At each side the angle accelerates by
@@ -99,7 +100,8 @@ namespace Exemplar
     std::array<HingeProduct<Number>, 4>
     hessian() const
     {
-      const auto               of_first = products(first), of_second = products(second);
+      const auto of_first               = products({ x[0], x[1], x[2] }),
+                 of_second              = products({ x[1], x[0], x[3] });
       const std::array<int, 3> at_first = { { 0, 1, 2 } }, at_second = { { 1, 0, 3 } };
       return { { placed(of_first[0], at_first), placed(of_first[1], at_first),
                  placed(of_second[0], at_second), placed(of_second[1], at_second) } };
@@ -142,8 +144,10 @@ namespace Exemplar
       return product;
     }
 
-    HingeSide<Number> first, second;
-    Number            angle;
+    std::array<Vector3<Number>, 4> x;
+    Vector3<Number>                edge, a, b; ///< x1, x2 and x3 from x0 on
+    Vector3<Number>                normal_a, normal_b;
+    Number                         square, length; ///< of the edge
   };
 
 } // namespace Exemplar
