@@ -68,16 +68,39 @@ namespace Exemplar
     }
   } // namespace
 
-  FESpace::FESpace(const Mesh               &mesh,
-                   std::vector<ShellSection> sections_of_cells,
-                   const ShellKind           shell_kind)
+  namespace
+  {
+    std::unique_ptr<const ShellMesh>
+    make_shell_mesh(const Mesh                       &mesh,
+                    const std::vector<ShellSection>  &sections,
+                    const ShellKind                   kind,
+                    const std::vector<SymmetryPlane> &planes)
+    {
+      auto shell = std::make_unique<ShellMesh>(vectors_of(mesh.get_nodes()), mesh.get_triangles(),
+                                               thicknesses_of(sections), kind);
+      for (const SymmetryPlane &plane : planes)
+      {
+        std::vector<bool> is_in(mesh.n_nodes(), false);
+        for (const unsigned int node : plane.nodes)
+          is_in[node] = true;
+        Vector3<double> normal{};
+        normal[plane.axis] = 1.;
+        for (unsigned int edge = 0; edge < shell->edges().size(); ++edge)
+          if (is_in[shell->edges()[edge].begin] && is_in[shell->edges()[edge].end])
+            shell->lay_director(edge, normal);
+      }
+      return shell;
+    }
+  } // namespace
+
+  FESpace::FESpace(const Mesh                       &mesh,
+                   std::vector<ShellSection>         sections_of_cells,
+                   const ShellKind                   shell_kind,
+                   const std::vector<SymmetryPlane> &planes)
       : mesh(mesh), kind(Element::P1), nodes_of_element(mesh, kind, shell_kind == ShellKind::plate),
         fe(dealii::FE_SimplexP<3>(1), 3), mapping(dealii::FE_SimplexP<3>(1)),
         sections(std::move(sections_of_cells)),
-        shell_mesh(std::make_unique<const ShellMesh>(vectors_of(mesh.get_nodes()),
-                                                     mesh.get_triangles(),
-                                                     thicknesses_of(sections),
-                                                     shell_kind))
+        shell_mesh(make_shell_mesh(mesh, sections, shell_kind, planes))
   {
     for (const ShellTriangle &triangle : shell_mesh->triangles())
       volumes.push_back(triangle.volume());

@@ -92,7 +92,7 @@ namespace Exemplar
     for (unsigned int i = 0; i < mesh.n_vertices(); ++i)
       for (int c = 0; c < 3; ++c)
         rest_size = std::max(rest_size, std::abs(mesh.vertex(i)[c]));
-    const double of_positions = 2. * std::numeric_limits<double>::epsilon() * rest_size;
+    const double of_positions = 8. * std::numeric_limits<double>::epsilon() * rest_size;
     for (unsigned int t = 0; t < mesh.triangles().size(); ++t)
     {
       const ShellTriangle &triangle  = mesh.triangles()[t];

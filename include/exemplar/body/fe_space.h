@@ -25,6 +25,14 @@ namespace Exemplar
     ShellElasticity elasticity;
   };
 
+  /// A plane of symmetry of a shell: nodes that lie in it and stay there, and the axis that is normal to it. Normals between these
+  /// nodes are held, see ShellMesh::lay_director().
+  struct SymmetryPlane
+  {
+    std::vector<unsigned int> nodes;
+    unsigned int              axis;
+  };
+
   /// The finite element space FE_SimplexP(1)^3 or FE_SimplexP(2)^3 on a mesh of straight edges.
   /// Degree of freedom 3 i + c is component c of node i of its NodeNumbering. Linear elements have
   /// one quadrature point a cell, quadratic ones four; those of cell c are the points c
@@ -39,7 +47,10 @@ namespace Exemplar
 
     /// The space of a shell: linear triangles of these sections, with a quadrature point each, and the slopes of a plate
     /// behind the vertices, see NodeNumbering. It has no gradients of shape functions: what a shell resists, ShellStrains knows.
-    FESpace(const Mesh &mesh, std::vector<ShellSection> sections, ShellKind kind);
+    FESpace(const Mesh                       &mesh,
+            std::vector<ShellSection>         sections,
+            ShellKind                         kind,
+            const std::vector<SymmetryPlane> &planes = {});
 
     /// The triangles and edges of a shell; only for one.
     const ShellMesh &

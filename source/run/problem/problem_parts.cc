@@ -7,6 +7,7 @@
 #include <exemplar/potential/obstacle_term.h>
 #include <exemplar/potential/shell_body.h>
 #include <exemplar/potential/tie_term.h>
+#include <exemplar/prm/assignments.h>
 #include <exemplar/run/problem/problem_parts.h>
 
 #include <algorithm>
@@ -122,13 +123,33 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// The planes in which handles hold slopes: those that hold one component.
+    std::vector<SymmetryPlane>
+    planes_of(const SceneParameters &parameters, const Mesh &mesh, const NamedNodes &named)
+    {
+      std::vector<SymmetryPlane> planes;
+      for (const HandleParameters &handle : parameters.handles)
+        if (const std::string component = trim(handle.components);
+            handle.holds_slopes() && component.size() == 1)
+          if (const std::size_t axis = std::string("xyz").find(component);
+              axis != std::string::npos)
+            planes.push_back(
+                { handle.select.nodes(mesh, "Handles/" + handle.name + "/Select", named),
+                  static_cast<unsigned int>(axis) });
+      return planes;
+    }
+  } // namespace
+
   Body::Body(const SceneParameters &parameters, BodyInputs &inputs)
       : mesh(std::move(inputs.mesh)),
         material(make_material(parameters.examples, std::move(inputs.fields.material))),
         fe_space(mesh.is_shell() ? FESpace(
                      mesh,
                      sections_of(inputs.fields.thicknesses, material, parameters.model.shell),
-                     parameters.model.shell)
+                     parameters.model.shell,
+                     planes_of(parameters, mesh, inputs.fields.nodes))
                                  : FESpace(mesh, parameters.model.element)),
         ties(make_ties(parameters, mesh, fe_space, inputs.fields.nodes)),
         patches(inputs.fields.patches, fe_space, material),
