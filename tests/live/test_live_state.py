@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 
 from live_client import Viewer
-from live_server import BAR, Msh, Server, prm, run_program, write_msh
+from live_server import BAR, Msh, Server, exemplar_runner, prm, write_msh
 
 
 class StateTest(unittest.TestCase):
@@ -149,7 +149,7 @@ class StateTest(unittest.TestCase):
             viewer.send(type="save pose")
             saved = Path(viewer.wait_for("saved")["text"])
         self.assertTrue((here / "record/scene_0001.prm").exists())  # what led to the example
-        played = run_program(here / "record/scene.prm", "--quiet", "--output", here / "played", "--set", "Output/Every=0")
+        played = exemplar_runner.run_program(here / "record/scene.prm", "--quiet", "--output", here / "played", "--set", "Output/Every=0")
         self.assertEqual((played.status, played.stderr), (0, ""))
         self.assertGreaterEqual(last, 20)
         text = [file.read_text().split("$Nodes")[1].split("$EndNodes")[0] for file in (saved, here / "played/final.msh")]
