@@ -179,6 +179,12 @@ namespace Exemplar
                       "those of {} files do not "
                       "fit into a .msh. Number the nodes, elements and groups of the files from 1.",
                       std::max({ strides.nodes, strides.elements, strides.tags }) / 10, n));
+    for (const PlacedFile &file : placed)
+      if (!(file.scale > 0.))
+        throw UserError(
+            fmt::format("Mesh/{}/Scale: must be positive, found {}. Leave it at 1 if the "
+                        "file is in the unit of the others.",
+                        file.name, file.scale));
     MshFile joined;
     for (std::size_t k = 0; k < n; ++k)
       append(joined, std::move(files[k]), placed[k], strides);

@@ -119,6 +119,11 @@ namespace Exemplar
                           const double        *blocks,
                           std::vector<double> &values) const
   {
+    if (!std::binary_search(mixed.begin(), mixed.end(), cell))
+    {
+      add_at_positions(cell, blocks, values);
+      return;
+    }
     const std::vector<unsigned int> node = nodes(cell);
     for (unsigned int a = 0; a < node.size(); ++a)
       for (unsigned int b = 0; b <= a; ++b)
@@ -130,6 +135,21 @@ namespace Exemplar
             if (row != FreeDofs::held && column != FreeDofs::held && row >= column)
               values[pattern.position(row, column)] += *blocks;
           }
+  }
+
+  void
+  CellScatter::add_at_positions(const unsigned int   cell,
+                                const double        *blocks,
+                                std::vector<double> &values) const
+  {
+    const auto n_nodes  = static_cast<unsigned int>(nodes_per_cell(fe_space.element()));
+    const int *position = &block_positions[n_block_columns(n_nodes) * cell];
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int b = 0; b <= a; ++b)
+        for (unsigned int j = 0; j < 3; ++j, ++position, blocks += 3)
+          if (*position != FreeDofs::held)
+            for (unsigned int i = a == b ? j : 0; i < 3; ++i)
+              values[*position + i] += blocks[i];
   }
 
   std::size_t

@@ -8,7 +8,7 @@ import unittest
 from pathlib import Path
 
 from live_client import Viewer
-from live_server import BAR, Msh, Server, prm, run_program, write_msh
+from live_server import BAR, Msh, Server, exemplar_runner, prm, write_msh
 
 
 class StateTest(unittest.TestCase):
@@ -125,8 +125,7 @@ class StateTest(unittest.TestCase):
         first.send(type="add example")
         scene = first.wait_for("scene")
         second.until(lambda: any(text["type"] == "scene" for text in second.texts[n:]))
-        self.assertEqual(scene["examples"][:-1], begun["examples"])
-        self.assertEqual(scene["examples"][-1], "by_hand_1")
+        self.assertEqual((begun["examples"], scene["examples"]), (["rest pose", "example 1"], ["rest pose", "by_hand_1", "example 2"]))
         state = first.wait_for("state")
         self.assertEqual((state["undo"], state["settings"]["gravity"], scene["gravity"]), (0, begun["gravity"], begun["gravity"]))
         self.assertEqual(self.viewer().texts[0], scene)
@@ -139,7 +138,7 @@ class StateTest(unittest.TestCase):
             viewer.send(type="gravity", numbers=[0., 0., -30.])
             viewer.wait_steps(40)
             viewer.send(type="add example")
-            self.assertEqual(viewer.wait_for("scene")["examples"][-1], "pose_0001")
+            self.assertEqual(viewer.wait_for("scene")["examples"], ["rest pose", "pose_0001", "example 2"])
             viewer.until(lambda: viewer.frames[-1].step < 30)
             viewer.send(type="gravity", numbers=[0., 0., -10.])
             viewer.wait_steps(20)
@@ -149,7 +148,7 @@ class StateTest(unittest.TestCase):
             viewer.send(type="save pose")
             saved = Path(viewer.wait_for("saved")["text"])
         self.assertTrue((here / "record/scene_0001.prm").exists())  # what led to the example
-        played = run_program(here / "record/scene.prm", "--quiet", "--output", here / "played", "--set", "Output/Every=0")
+        played = exemplar_runner.run_program(here / "record/scene.prm", "--quiet", "--output", here / "played", "--set", "Output/Every=0")
         self.assertEqual((played.status, played.stderr), (0, ""))
         self.assertGreaterEqual(last, 20)
         text = [file.read_text().split("$Nodes")[1].split("$EndNodes")[0] for file in (saved, here / "played/final.msh")]

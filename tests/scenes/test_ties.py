@@ -4,7 +4,7 @@
 import unittest
 
 import numpy as np
-from exemplar_runner import SceneTest, nodes_of, read_csv, timeless_statistics
+from exemplar_runner import SceneTest, nodes_of, read_csv, read_summary, timeless_statistics
 from mpirun import launch
 from piece_boxes import Box, write_boxes
 
@@ -106,6 +106,14 @@ class Ties(SceneTest):
         half = self.solve(FLYING, "--resume", output="half")
         self.assertEqual(timeless_statistics(whole), timeless_statistics(half))
         self.assertEqual((whole / "final.msh").read_bytes(), (half / "final.msh").read_bytes())
+
+    def test_what_a_run_says_of_ties(self):
+        output = self.solve({**GLUED, "Ties/glue/Stiffness": "1e6", "Output/Every": "1"})
+        self.assertIn(b'Name="tie_force"', (output / "frame_0001.vtu").read_bytes())
+        self.assertIn("ties", read_summary(output)["used"])
+        plain = self.solve({k: v for k, v in GLUED.items() if "Ties" not in k}, output="plain", file="plain.prm")
+        self.assertIn("ties", read_summary(plain)["left_out"])
+        self.assertNotIn("energy_ties", read_csv(plain)[-1])
 
     def test_statics_that_a_tie_holds(self):
         held = {k: v for k, v in {**GLUED, "Handles/Names": "left", "Loads/Gravity": "0, 0, -1"}.items() if "/right/" not in k}

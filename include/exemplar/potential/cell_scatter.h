@@ -65,6 +65,10 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
+    /// The same for a cell that is not mixed, without a search.
+    void
+    add_at_positions(unsigned int cell, const double *blocks, std::vector<double> &values) const;
+
     void
     find_positions(unsigned int cell, const std::vector<int> &n_held);
 
