@@ -72,7 +72,9 @@ namespace Exemplar
               [&](const unsigned int t)
               {
                 const auto &corners = surface.triangles[t].nodes;
-                if (passes_through(edge, { { x(corners[0]), x(corners[1]), x(corners[2]) } }))
+                // at a common node rounding alone would say on which side the edge begins
+                if (!have_a_common_node(ends, corners)
+                    && passes_through(edge, { { x(corners[0]), x(corners[1]), x(corners[2]) } }))
                   add_crossing(e, t, result);
               });
         }
@@ -144,9 +146,10 @@ namespace Exemplar
                              [&](const unsigned int node)
                              { return (contacts.selections_of(node) >> i & 1U) != 0; });
         };
-        const auto n_nodes = std::count_if(surface.nodes.begin(), surface.nodes.end(),
-                                           [&](const ContactSurface::Node &at)
-                                           { return lies_in(std::array<unsigned int, 1>{ { at.node } }); });
+        const auto n_nodes
+            = std::count_if(surface.nodes.begin(), surface.nodes.end(),
+                            [&](const ContactSurface::Node &at)
+                            { return lies_in(std::array<unsigned int, 1>{ { at.node } }); });
         if (n_nodes == 0)
           throw UserError("Contact/Leave out: '" + contacts.left_out[i]
                           + "' has no node of the body's surface, which alone touches anything. "
