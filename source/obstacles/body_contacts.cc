@@ -22,15 +22,6 @@ namespace Exemplar
       return largest;
     }
 
-    template <typename Nodes, typename OtherNodes>
-    bool
-    have_a_common_node(const Nodes &nodes, const OtherNodes &others)
-    {
-      return std::any_of(nodes.begin(), nodes.end(),
-                         [&](const unsigned int node)
-                         { return std::count(others.begin(), others.end(), node) > 0; });
-    }
-
     bool
     has_several_bits(const std::uint64_t bits)
     {

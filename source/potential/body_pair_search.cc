@@ -378,16 +378,25 @@ namespace Exemplar
     end += displacement;
     const Places places = places_of(positions), ends = without_mean_way(places, places_of(end));
     Limit        limit;
+    const auto   bound = [&](const KeptBodyPairs::Candidate &candidate)
+    {
+      const BodyPairCorners x    = corners(candidate.pair, places);
+      const double          part = max_step(candidate.pair, x, ways_of(x, ends), limit.part);
+      if (part < limit.part)
+        limit = { part, true, x.places[3] };
+    };
+    // what was near bounds a long way to one of which all pairs are soon found; the least part of all is the same in any order
+    Places reached = ends;
+    if (kept.places.size() == places.size()
+        && farthest_apart(places, ends) > greatest_kept_reach_of_bodies * contacts.width)
+    {
+      for (const KeptBodyPairs::Candidate &candidate : kept.candidates)
+        bound(candidate);
+      for (const ContactSurface::Node &at : surface.nodes)
+        reached[at.node] = places[at.node] + limit.part * (ends[at.node] - places[at.node]);
+    }
     // what ends near without meeting is bound as well
-    visit_candidates(places, ends, part_left * contacts.width,
-                     [&](const KeptBodyPairs::Candidate &candidate)
-                     {
-                       const BodyPairCorners x = corners(candidate.pair, places);
-                       const double          part
-                           = max_step(candidate.pair, x, ways_of(x, ends), limit.part);
-                       if (part < limit.part)
-                         limit = { part, true, x.places[3] };
-                     });
+    visit_candidates(places, reached, part_left * contacts.width, bound);
     return limit;
   }
 

@@ -163,19 +163,18 @@ class Bodies(BodyContactTest):
         lower, upper = "box -1 -1 -1  2 1 0.11", "box -1 -1 0.11  2 1 1"
         for left_out, passes in ((f"{lower}; {upper}", True), ("box -1 -1 -1  2 1 1", True), (f"{lower}; {lower}", False),
                                  (f"box -1 -1 -1  0.3 1 0.11; {upper}", False)):
-            for element in ("P1", "P2"):
+            for element in ("P2", "P1"):
                 with self.subTest(left_out=left_out, element=element):
-                    output = self.solve({**FREE, "Contact/Leave out": left_out, "Model/Element": element, "Time/End": "0.15",
+                    output = self.solve({**FREE, "Contact/Leave out": left_out, "Model/Element": element, "Time/End": "0.08",
                                          "Initial/Velocity": "0; 0; (z > 0.11 ? -3 : 0)"})
                     pairs = max(row["body_pairs"] for row in read_csv(output))
                     *_, (x, arrays) = self.frames(output)
                     crossed = crossings(x, self.flat_triangles(arrays))
                     self.assertEqual((pairs == 0, crossed != []), (passes, passes))
                     self.assertEqual(json.loads((output / "summary.json").read_text())["pairs_left_out"], 0)
-        log = (output / "log.txt").read_text()
-        self.assertIn(f"Contact leaves out what never touches each other: 24 faces and 16 nodes in 'box -1 -1 -1  0.3 1 0.11', "
-                      f"52 faces and 28 nodes in '{upper}'", " ".join(log.split()).replace("-1 -1 -1 0.3", "-1 -1 -1  0.3")
-                      .replace("0.11 2 1", "0.11  2 1"))
+        words = " ".join((output / "log.txt").read_text().split())
+        self.assertIn(f"Contact leaves out what never touches each other: 10 faces and 8 nodes in 'box -1 -1 -1 0.3 1 0.11', "
+                      f"52 faces and 28 nodes in '{' '.join(upper.split())}'", words)
 
     def test_a_block_slips_on_a_tilted_block_or_stays(self):
         self.write_pieces(Box((0, 0, 0), (0.6, 0.2, 0.1), (6, 2, 1)), Box((0.05, 0.05, 0.104), (0.15, 0.15, 0.2), (1, 1, 1)))

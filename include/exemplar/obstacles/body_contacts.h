@@ -5,6 +5,7 @@
 #include <exemplar/obstacles/contact_parameters.h>
 #include <exemplar/obstacles/contact_surface.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <set>
 #include <unordered_map>
@@ -19,6 +20,16 @@ namespace Exemplar
     node_triangle,
     edge_edge
   };
+
+  /// Whether two parts, by their nodes, have one in common.
+  template <typename Nodes, typename OtherNodes>
+  bool
+  have_a_common_node(const Nodes &nodes, const OtherNodes &others)
+  {
+    return std::any_of(nodes.begin(), nodes.end(),
+                       [&](const unsigned int node)
+                       { return std::count(others.begin(), others.end(), node) > 0; });
+  }
 
   /// Two parts of a ContactSurface, by their numbers. Of edges the first has the lesser one.
   struct BodyPair

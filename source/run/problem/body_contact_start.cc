@@ -72,7 +72,9 @@ namespace Exemplar
               [&](const unsigned int t)
               {
                 const auto &corners = surface.triangles[t].nodes;
-                if (passes_through(edge, { { x(corners[0]), x(corners[1]), x(corners[2]) } }))
+                // at a common node rounding alone would say on which side the edge begins
+                if (!have_a_common_node(ends, corners)
+                    && passes_through(edge, { { x(corners[0]), x(corners[1]), x(corners[2]) } }))
                   add_crossing(e, t, result);
               });
         }
