@@ -264,11 +264,6 @@ Exit status:
         throw UserError("exemplar live takes one scene, or one or two output directories of runs.");
       std::vector<std::string> overrides = with_defaults(arguments.overrides);
       const SceneFile          given(arguments.shown.front(), overrides);
-      if (given.get_parameters().mesh.kind == MeshKind::shell)
-        throw UserError(arguments.shown.front()
-                        + ": Mesh/Kind = shell is not for the live page yet. Run the scene, and "
-                          "look at its frames by "
-                          "exemplar export.");
       const unsigned int axis
           = axis_of_up(arguments.up, given.get_parameters().mesh.surface_file());
       if (arguments.floor)

@@ -126,7 +126,8 @@ namespace Exemplar::Live
         [this]
         {
           make_problem_of(
-              { Mesh(contents, parameters.mesh.name(), parameters.mesh.scale), fields, undivided });
+              { Mesh(contents, parameters.mesh.name(), parameters.mesh.scale, parameters.mesh.kind),
+                fields, undivided });
         });
   }
 
@@ -231,12 +232,13 @@ namespace Exemplar::Live
       throw UserError("examples do nothing while Examples/Importance is 0. Set it in the scene.");
     BodyFields of_next  = fields;
     of_next.poses[name] = std::move(places);
-    auto with_one_more
-        = make_problem(next,
-                       [&](const CompleteScene &) {
-                         return BodyInputs{ Mesh(contents, next.mesh.name(), next.mesh.scale),
-                                            of_next, undivided };
-                       });
+    auto with_one_more  = make_problem(
+         next,
+         [&](const CompleteScene &)
+         {
+          return BodyInputs{ Mesh(contents, next.mesh.name(), next.mesh.scale, next.mesh.kind),
+                             of_next, undivided };
+        });
     player.reset();
     problem    = std::move(with_one_more);
     parameters = std::move(next);

@@ -166,7 +166,7 @@ namespace Exemplar::Live
   {
     std::vector<double> sums(mesh.n_nodes(), 0.), counts(mesh.n_nodes(), 0.), result;
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
-      for (const unsigned int node : mesh.get_cells()[cell])
+      for (const unsigned int node : mesh.corners(cell))
       {
         sums[node] += of_cells[cell];
         counts[node] += 1.;

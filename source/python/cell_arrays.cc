@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/python/arrays_to_python.h>
 #include <exemplar/python/evaluation.h>
 #include <exemplar/python/module_parts.h>
@@ -37,6 +38,8 @@ namespace Exemplar::Python
     {
       const FESpace      &fe_space = held.get().body.fe_space;
       std::vector<double> numbers;
+      if (fe_space.is_shell())
+        throw UserError("shape_gradients: the triangles of a shell (Mesh/Kind) have none.");
       for (unsigned int point = 0; point < fe_space.n_points(); ++point)
         for (const Vector3<double> &gradient : fe_space.gradients(point))
           for (int c = 0; c < 3; ++c)

@@ -58,7 +58,7 @@ OF_ONE_PROCESS = {
 }
 
 # Scenes of prm/ with something that several processes refuse, and words of the refusal.
-OF_ONE_PROCESS_ALONE = {"contact/two_bars.prm": "not for several processes"}
+OF_ONE_PROCESS_ALONE = {"contact/two_bars.prm": "not for several processes", "shells/leaf.prm": "not for several processes"}
 
 # Their bodies collapse on the way and may come out of it in several shapes, so that messages alone are compared.
 AMBIGUOUS = {"a turn along straight lines"}

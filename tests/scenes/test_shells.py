@@ -56,7 +56,7 @@ class Shells(SceneTest):
                               "Handles/left/Follow pose": "held.obj", "Handles/right/Follow pose": "held.obj"})
         self.assertLess(abs(read_csv(output)[-1]["weight_1"] - .35), 1e-6)
 
-    def deflection(self, n, kind, clamped):
+    def deflection(self, n, kind, clamped, more=None):
         """Deflection of the middle of a square plate over the closed form (Timoshenko and Woinowsky-Krieger 1959)."""
         points, triangles = grid(n, n, kind)
         self.write_shell("rest.obj", [(x, y, 0.) for x, y in points], triangles)
@@ -70,7 +70,7 @@ class Shells(SceneTest):
             handles[f"Handles/{name}/Select"] = "box " + box
             handles[f"Handles/{name}/Slopes"] = "held" if clamped else "free"
         output = self.solve_shell({"Scene": "static", "Time/Increments": "1", "Loads/Gravity": f"0, 0, -{gravity!r}",
-                              "Solver/Tolerance": "1e-9", **handles})
+                              "Solver/Tolerance": "1e-9", **handles, **(more or {})})
         return -min(z for _, _, z in nodes_of(output / "final.msh").values()) / wanted
 
     def test_plates_bend_as_they_should(self):

@@ -86,6 +86,8 @@ namespace Exemplar
     {
       if (problem.body.exchange().n_processes() > 1)
         refuse("for several processes", "Use one.");
+      if (problem.body.mesh.is_shell())
+        refuse("of shells", "Set Mesh/Kind = solid.");
       for (const auto &term : problem.potential.get_terms())
         if (const NoGradients none = term->no_gradients(); !none.what.empty())
           refuse(none.what, none.remedy);

@@ -66,61 +66,59 @@ namespace Exemplar
     if (!is_shell)
       return;
     const std::string solid = key_of_solids(*this), key = "Mesh/Kind = shell: ";
-    refuse(
-        { { !solid.empty(),
-            key + solid + " is of bodies with a volume. Remove it, or set Mesh/Kind = solid." },
-          { mesh.n_cells != MeshParameters().n_cells || mesh.repair,
-            key
-                + "Mesh/Cells and Repair fill a surface with cells. Remove them, or set Mesh/Kind "
-                  "= solid." },
-          { mesh.generator != MeshGenerator::none,
-            key
-                + "Mesh/Generator makes tetrahedra. Give a surface or a .msh of triangles as "
-                  "Mesh/File." },
-          { material.volume_stiffness > 0.,
-            key + "Material/Volume stiffness is not there yet. Set it to 0." },
-          { material.is_painted(), key
-                                       + "painted maps of Material are not for shells yet. Give "
-                                         "regions their constants instead." },
-          { examples.are_painted() || reads_off_surface(),
-            key
-                + "what is read off a surface (Follow cache, Select = near or painted, maps) is "
-                  "not for shells yet. Select by "
-                  "box, sphere, region, set or nodes." },
-          { !mesh.surface.empty(), key
-                                       + "Mesh/Surface is the surface that cells fill, but a shell "
-                                         "is its own. Remove it." },
-          { output.shows_surface() && !is_surface_file(mesh.file),
-            key + "Output/Formats has a format that shows a surface, of which Mesh/File = "
-                + mesh.file
-                + " is none. Give an .obj, .ply or .stl, or set Output/Formats = vtu." },
-          { !mesh.carried.empty(), key + "Mesh/Carry is not for shells. Remove it." },
-          { !mesh.files.empty() || !ties.empty(),
-            key
-                + "Mesh/Files and Ties are not for shells yet. Give one Mesh/File, in pieces if "
-                  "need be." },
-          { loads.balanced, key + "Loads/Balanced = true is not for shells yet. Set it to false." },
-          { examples.acts_on != ActsOn::all || examples.elasticity().is_own(),
-            key
-                + "Examples/Acts on, Example modulus and Example Poisson ratio are of bodies with "
-                  "a volume. Remove them." },
-          { examples.importance * examples.bending_importance > 1.,
-            "Examples/Bending importance times Importance = "
-                + shortest_text(examples.importance * examples.bending_importance)
-                + " is above 1, so that a shell would go beyond its examples. Lower one of them." },
-          { solver.starts == Starts::examples,
-            key + "Solver/Starts = examples is not for shells yet. Set it to state." },
-          { solver.method == Method::one_pass || solver.method == Method::fixed_point,
-            key
-                + "Solver/Method = one pass and fixed point hold rotations of cells. Set it to "
-                  "auto." },
-          { output.space_error != SpaceErrorUse::never,
-            key + "Output/Space error compares tetrahedra. Set it to false." },
-          { !output.functional.empty(),
-            key + "gradients (Output/Functional, vjp) are not for shells yet. Remove it." },
-          { !obstacles.empty() || !contact.empty(),
-            key + "Obstacles and Contact are not for shells yet. Remove them." },
-          { !session.empty(),
-            key + "a session is of the live page, which shells do not have yet. Remove it." } });
+    refuse({
+        { !solid.empty(),
+          key + solid + " is of bodies with a volume. Remove it, or set Mesh/Kind = solid." },
+        { mesh.n_cells != MeshParameters().n_cells || mesh.repair,
+          key
+              + "Mesh/Cells and Repair fill a surface with cells. Remove them, or set Mesh/Kind "
+                "= solid." },
+        { mesh.generator != MeshGenerator::none,
+          key
+              + "Mesh/Generator makes tetrahedra. Give a surface or a .msh of triangles as "
+                "Mesh/File." },
+        { material.volume_stiffness > 0.,
+          key + "Material/Volume stiffness is not there yet. Set it to 0." },
+        { material.is_painted(), key
+                                     + "painted maps of Material are not for shells yet. Give "
+                                       "regions their constants instead." },
+        { examples.are_painted() || reads_off_surface(),
+          key
+              + "what is read off a surface (Follow cache, Select = near or painted, maps) is "
+                "not for shells yet. Select by "
+                "box, sphere, region, set or nodes." },
+        { !mesh.surface.empty(), key
+                                     + "Mesh/Surface is the surface that cells fill, but a shell "
+                                       "is its own. Remove it." },
+        { output.shows_surface() && !is_surface_file(mesh.file),
+          key + "Output/Formats has a format that shows a surface, of which Mesh/File = "
+              + mesh.file + " is none. Give an .obj, .ply or .stl, or set Output/Formats = vtu." },
+        { !mesh.carried.empty(), key + "Mesh/Carry is not for shells. Remove it." },
+        { !mesh.files.empty() || !ties.empty(),
+          key
+              + "Mesh/Files and Ties are not for shells yet. Give one Mesh/File, in pieces if "
+                "need be." },
+        { loads.balanced, key + "Loads/Balanced = true is not for shells yet. Set it to false." },
+        { examples.acts_on != ActsOn::all || examples.elasticity().is_own(),
+          key
+              + "Examples/Acts on, Example modulus and Example Poisson ratio are of bodies with "
+                "a volume. Remove them." },
+        { examples.importance * examples.bending_importance > 1.,
+          "Examples/Bending importance times Importance = "
+              + shortest_text(examples.importance * examples.bending_importance)
+              + " is above 1, so that a shell would go beyond its examples. Lower one of them." },
+        { solver.starts == Starts::examples,
+          key + "Solver/Starts = examples is not for shells yet. Set it to state." },
+        { solver.method == Method::one_pass || solver.method == Method::fixed_point,
+          key
+              + "Solver/Method = one pass and fixed point hold rotations of cells. Set it to "
+                "auto." },
+        { output.space_error != SpaceErrorUse::never,
+          key + "Output/Space error compares tetrahedra. Set it to false." },
+        { !output.functional.empty(),
+          key + "gradients (Output/Functional, vjp) are not for shells yet. Remove it." },
+        { !obstacles.empty() || !contact.empty(),
+          key + "Obstacles and Contact are not for shells yet. Remove them." },
+    });
   }
 } // namespace Exemplar

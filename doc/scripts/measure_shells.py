@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Prints the tables of doc/shells.md: plates on four kinds of meshes, hinges, a roof and a pinched cylinder.
+
+    EXEMPLAR=build/release/exemplar python3 doc/scripts/measure_shells.py
+"""
+
+import math
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests/scenes"))
+from exemplar_runner import nodes_of  # noqa: E402
+from shell_meshes import grid  # noqa: E402
+from test_shells import Shells  # noqa: E402
+
+KINDS = ("right", "alternating", "equilateral", "random")
+EDGE = 1e-6
+
+
+class Measure(Shells):
+    def runTest(self):  # noqa: N802
+        """Nothing: a test case of which the means alone are wanted."""
+
+    def lowering(self, place, handles, keys):
+        """Runs a quarter or an eighth of a shell of 16 to 64 strips a side, its vertices at place(u, v); how far vertex (u, v) of
+        `keys` has gone down."""
+        n, kind, (u, v), scene = keys
+        points, triangles = grid(n, n, kind)
+        rest = [place(x, y) for x, y in points]
+        self.write_shell("rest.obj", rest, triangles)
+        held = {"Handles/Names": ", ".join(handles)}
+        for name, (box, components, slopes) in handles.items():
+            held[f"Handles/{name}/Select"] = "box " + " ".join(map(str, box))
+            held[f"Handles/{name}/Components"] = components
+            held[f"Handles/{name}/Slopes"] = slopes
+        output = self.solve_shell({"Scene": "static", "Time/Increments": "1", **scene, **held})
+        number = points.index((u, v))
+        return rest[number][2] - nodes_of(output / "final.msh")[number + 1][2]
+
+    def roof(self, n, kind):
+        """Scordelis and Lo 1964: the middle of the free edge over .3024."""
+        radius, length, load = 25., 25., .1
+        found = self.lowering(
+            lambda u, v: (radius * math.sin(math.radians(40.) * u), length * v, radius * math.cos(math.radians(40.) * u)),
+            {"mid": ((-99, -EDGE, -99, 99, EDGE, 99), "y", "held"), "end": ((-99, length - EDGE, -99, 99, length + EDGE, 99), "x, z", "free"),
+             "top": ((-EDGE, -99, -99, EDGE, 99, 99), "x", "held")},
+            (n, kind, (1., 0.), {"Material/Thickness": "0.25", "Material/Young's modulus": "4.32e8", "Material/Poisson's ratio": "0",
+                                 "Material/Density": "360", "Loads/Gravity": f"0, 0, {-load}"}))
+        return found / load / .3024
+
+    def pinched(self, n, kind):
+        """A cylinder with diaphragms, pinched by two forces: 1.8248e-5 for radius 300, thickness 3, E 3e6, force 1."""
+        radius, scale, force = 3., .01, 50.
+        found = self.lowering(
+            lambda u, v: (radius * math.sin(math.pi / 2. * u), radius * v, radius * math.cos(math.pi / 2. * u)),
+            {"mid": ((-9, -EDGE, -9, 9, EDGE, 9), "y", "held"), "end": ((-9, radius - EDGE, -9, 9, radius + EDGE, 9), "x, z", "free"),
+             "top": ((-EDGE, -9, -9, EDGE, 9, 9), "x", "held"), "side": ((-9, -9, -EDGE, 9, 9, EDGE), "z", "held")},
+            (n, kind, (0., 0.), {"Material/Thickness": "0.03", "Material/Young's modulus": "3e6", "Loads/Names": "pinch",
+                                 "Loads/pinch/Select": f"sphere 0 0 {radius} 1e-3", "Loads/pinch/Force": f"0; 0; {-.25 * force * scale}"}))
+        return found / force / 1.8248e-5
+
+
+def table(head, rows):
+    print("| " + " | ".join(head) + " |\n|" + "---|" * len(head))
+    for name, values in rows:
+        print("| " + " | ".join([name, *(f"{value:.3f}" for value in values)]) + " |")
+    print()
+
+
+def main():
+    measure = Measure()
+    measure.setUp()
+    counts = (8, 16, 32, 64)
+    for title, clamped in (("supported", False), ("clamped", True)):
+        table([title, *(f"n = {n}" for n in counts)], [(kind, [measure.deflection(n, kind, clamped) for n in counts]) for kind in KINDS])
+    table(["hinges, supported", *(f"n = {n}" for n in counts)],
+          [(kind, [measure.deflection(n, kind, False, {"Model/Shell": "hinges"}) for n in counts]) for kind in KINDS])
+    table(["roof", "n = 8", "n = 16", "n = 32"], [(kind, [measure.roof(n, kind) for n in (8, 16, 32)]) for kind in KINDS[:2]])
+    table(["pinched cylinder", "n = 16", "n = 32", "n = 64"], [(kind, [measure.pinched(n, kind) for n in (16, 32, 64)]) for kind in KINDS[:2]])
+    measure.doCleanups()
+
+
+if __name__ == "__main__":
+    main()
