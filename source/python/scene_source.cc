@@ -199,7 +199,7 @@ namespace Exemplar::Python
                                                     : "Did you mean '" + nearest + "'?"));
       }
       const bool has_names = section == "Handles" || section == "Loads" || section == "Obstacles"
-                             || section == "Ties" || section == "Mesh"
+                             || section == "Ties"
                              || (section == "Material" && path.back().rfind("region ", 0) == 0);
       if (path.size() == 2 && !has_names)
         throw UserError(
