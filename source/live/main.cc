@@ -264,7 +264,7 @@ Exit status:
         throw UserError("exemplar live takes one scene, or one or two output directories of runs.");
       std::vector<std::string> overrides = with_defaults(arguments.overrides);
       const SceneFile          given(arguments.shown.front(), overrides);
-      const unsigned int axis
+      const unsigned int       axis
           = axis_of_up(arguments.up, given.get_parameters().mesh.surface_file());
       if (arguments.floor)
         overrides = with_floor(overrides, given, *arguments.floor, axis);

@@ -127,7 +127,8 @@ namespace Exemplar
     const Format *
     format_of_bytes(std::string_view bytes)
     {
-      bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t"), bytes.size())); // as gmsh begins a .mesh
+      bytes.remove_prefix(
+          std::min(bytes.find_first_not_of(" \t"), bytes.size())); // as gmsh begins a .mesh
       return find_format(
           [&](const Format &format)
           {

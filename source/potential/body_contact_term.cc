@@ -7,6 +7,12 @@
 
 namespace Exemplar
 {
+  namespace
+  {
+    constexpr double greatest_reach
+        = 10.; ///< widths: gaps from farther are too far from linear, and there are too many
+  }
+
   BodyContactTerm::BodyContactTerm(const BodyContacts   &contacts,
                                    const ContactSurface &surface,
                                    const Material       &material,
@@ -76,7 +82,8 @@ namespace Exemplar
                                      std::vector<Gap> &gaps) const
   {
     std::vector<BodyTouch> near;
-    search().append_along(positions, displacement, reach, near);
+    search().append_along(positions, displacement, std::min(reach, greatest_reach * contacts.width),
+                          near);
     for (const BodyTouch &touch : near)
       if (touch.gap.stiffness > 0.)
         gaps.push_back(touch.gap);

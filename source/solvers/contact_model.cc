@@ -14,9 +14,8 @@ namespace Exemplar
     constexpr unsigned int max_weight_rounds = 3;    ///< in one of these
     constexpr double       joins_below       = 0.2;  ///< widths
     constexpr double       same_weights      = 1e-3; ///< of their greatest change
-    constexpr double greatest_reach = 10.; ///< widths: gaps from farther are too far from linear
-    constexpr std::size_t max_rows  = 300; ///< of a dense problem
-  }                                        // namespace
+    constexpr std::size_t  max_rows          = 300;  ///< of a dense problem
+  }                                                  // namespace
 
   ContactModel::ContactModel(const IncrementalPotential &potential,
                              RotatedMetric              &metric,
@@ -231,8 +230,7 @@ namespace Exemplar
     const Exchange &exchange = potential.get_free_dofs().exchange();
     Vector          moved    = displacement(direction.step);
     const double    reach    = std::sqrt(3.) * exchange.max(max_entry(moved.begin(), moved.end()));
-    GapEnergies     near(potential.gaps_along(positions, moved,
-                                              std::min(reach, greatest_reach * potential.gap_width())));
+    GapEnergies     near(potential.gaps_along(positions, moved, reach));
     const std::vector<Gap> &gaps = near.get_gaps();
     std::vector<Gap>        taken;
     std::vector<char>       is_taken(gaps.size(), 0);

@@ -58,8 +58,9 @@ namespace Exemplar
     /// edges are long at rest; empty: none are known. A section of our own, $NormalTips, has them: their number, and a line of
     /// three coordinates each.
     std::vector<dealii::Point<3>> normal_tips = {};
-    std::vector<JoinedFile> files = {}; ///< empty unless it was joined of several, see join_meshes()
-    std::string             note  = {}; ///< for the user, on conversions of the file; empty: none
+    std::vector<JoinedFile>       files
+        = {};              ///< empty unless it was joined of several, see join_meshes()
+    std::string note = {}; ///< for the user, on conversions of the file; empty: none
     /// Restrictions of gmsh when it made this of a .geo ("text", "seccomp", "landlock"); no value
     /// if it was not made of one.
     std::optional<std::vector<std::string>> geo_walls = {};
