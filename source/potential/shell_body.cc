@@ -87,12 +87,12 @@ namespace Exemplar
   {
     const ShellMesh    &mesh = parts.mesh;
     std::vector<double> forces(mesh.n_nodes(), 0.); // squares
-    double              squares = 0.;
-    rest_size                   = 0.;
+    double              squares = 0., squares_of_strains = 0.;
+    rest_size = 0.;
     for (unsigned int i = 0; i < mesh.n_vertices(); ++i)
       for (int c = 0; c < 3; ++c)
         rest_size = std::max(rest_size, std::abs(mesh.vertex(i)[c]));
-    const double of_positions = 8. * std::numeric_limits<double>::epsilon() * rest_size;
+    const double of_positions = 2. * std::numeric_limits<double>::epsilon() * rest_size;
     for (unsigned int t = 0; t < mesh.triangles().size(); ++t)
     {
       const ShellTriangle &triangle  = mesh.triangles()[t];
@@ -107,6 +107,8 @@ namespace Exemplar
                    bending_stress  = stiffness * of_positions * bending;
       squares += triangle.volume()
                  * (membrane_stress * membrane_stress + bending_stress * bending_stress);
+      squares_of_strains += triangle.volume() * of_positions * of_positions
+                            * (greatest * greatest + bending * bending);
       for (unsigned int i = 0; i < 3; ++i)
       {
         const double gradient = norm_in_plane(triangle.gradients[i]);
@@ -118,6 +120,7 @@ namespace Exemplar
     const Exchange &exchange = parts.fe_space.exchange();
     force_of_rounding  = std::sqrt(exchange.max(*std::max_element(forces.begin(), forces.end())));
     stress_of_rounding = std::sqrt(exchange.sum(squares));
+    strain_of_rounding = std::sqrt(exchange.sum(squares_of_strains));
   }
 
   double

@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/solvers/line_search.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Exemplar
@@ -11,7 +12,8 @@ namespace Exemplar
     bool
     has_not_risen(const Merit &now, const Merit &before)
     {
-      return now.potential <= before.potential + 1e-12 * std::abs(before.potential);
+      return now.potential
+             <= before.potential + std::max(1e-12 * std::abs(before.potential), before.rounding);
     }
 
     constexpr unsigned int max_halvings_beside_held = 20;
@@ -29,7 +31,7 @@ namespace Exemplar
   bool
   is_below_rounding(const Merit &before, const double change_expected)
   {
-    return std::abs(change_expected) < 1e-9 * std::abs(before.potential);
+    return std::abs(change_expected) < std::max(1e-9 * std::abs(before.potential), before.rounding);
   }
 
   bool

@@ -149,6 +149,13 @@ namespace Exemplar
     virtual double
     rounding_force(double size) const = 0;
 
+    /// A change of the energy [J] that is nothing but the rounding of the positions, where it is more than that of sums.
+    virtual double
+    rounding_energy(const ElasticEvaluation & /*at*/) const
+    {
+      return 0.;
+    }
+
     /// A derivative of the energy by a weight [J] that is nothing but the rounding of the positions.
     virtual double
     rounding_weight_gradient() const = 0;

@@ -9,6 +9,7 @@
 #include <exemplar/body/target_block.h>
 #include <exemplar/potential/elastic_body.h>
 
+#include <cmath>
 #include <vector>
 
 namespace Exemplar
@@ -123,6 +124,13 @@ namespace Exemplar
 
     double
     rounding_force(double size) const override;
+
+    /// Membranes are stiff beside what bends: their strains are small, and their energy is lost in rounding first.
+    double
+    rounding_energy(const ElasticEvaluation &at) const override
+    {
+      return strain_of_rounding * std::sqrt(at.stress_square);
+    }
 
     double
     rounding_weight_gradient() const override;
@@ -278,6 +286,7 @@ namespace Exemplar
     double rest_size          = 0.;                     ///< the greatest coordinate at rest [m]
     double force_of_rounding  = 0.;                     ///< greatest of a node [N]
     double stress_of_rounding = 0.;                     ///< (sum V T^2)^(1/2)
+    double strain_of_rounding = 0.;                     ///< (sum V e^2)^(1/2) [m^(3/2)]
   };
 } // namespace Exemplar
 

@@ -10,12 +10,14 @@ namespace Exemplar
   struct Merit
   {
     double potential         = 0.; ///< [J]
+    double rounding          = 0.; ///< of the potential, beyond that of sums [J]
     double max_free_gradient = 0.; ///< [N]
 
     Merit() = default;
 
     Merit(const IncrementalPotential &potential, const Evaluation &evaluation)
         : potential(evaluation.potential),
+          rounding(potential.get_body().rounding_energy(evaluation.elastic)),
           max_free_gradient(potential.get_free_dofs().max_magnitude(evaluation.gradient))
     {
     }
