@@ -39,7 +39,7 @@ class Measure(Shells):
 
     def roof(self, n, kind):
         """Scordelis and Lo 1964: the middle of the free edge over .3024."""
-        radius, length, load = 25., 25., .1
+        radius, length, load = 25., 25., 1e-3
         found = self.lowering(
             lambda u, v: (radius * math.sin(math.radians(40.) * u), length * v, radius * math.cos(math.radians(40.) * u)),
             {"mid": ((-99, -EDGE, -99, 99, EDGE, 99), "y", "held"), "end": ((-99, length - EDGE, -99, 99, length + EDGE, 99), "x, z", "free"),

@@ -87,7 +87,8 @@ namespace Exemplar
       std::vector<dealii::Point<3>> images;
       const auto                    find = [&]
       {
-        for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
+        // a formula of places on a shell says nothing of the tips of its normals
+        for (unsigned int node = 0; node < fe_space.numbering().n_places(); ++node)
           images.emplace_back(expression.vector(fe_space.rest_position(node), 0.));
       };
       do_in_agreement(fe_space.exchange(), find); // it may throw on one process alone

@@ -8,7 +8,7 @@ import random
 def grid(nx, ny, kind="right"):
     """Points of the unit square, by rows along x, and its triangles, counterclockwise seen from z. `kind`: right (all diagonals alike),
     alternating (diagonals in turn), random (alternating, with inner points moved by up to .25 of a cell) or equilateral (every other row
-    moved by half a cell, its ends apart)."""
+    moved by half a cell, its ends apart, and as many rows as make the triangles nearly equilateral where nx = ny)."""
     points = [(i / nx, j / ny) for j in range(ny + 1) for i in range(nx + 1)]
 
     def number(i, j):
@@ -26,7 +26,7 @@ def grid(nx, ny, kind="right"):
             else:
                 triangles += [(a, b, d), (b, c, d)]
     if kind == "equilateral":
-        return equilateral(nx, ny)
+        return equilateral(nx, round(ny / math.sqrt(3.)) * 2)
     return points, triangles
 
 

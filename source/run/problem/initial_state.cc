@@ -5,6 +5,22 @@
 
 namespace Exemplar
 {
+  namespace
+  {
+    Vector
+    with_tips_of_least_bending(const Vector &positions, const FESpace &fe_space)
+    {
+      std::vector<dealii::Point<3>> places;
+      for (unsigned int node = 0; node < fe_space.numbering().n_places(); ++node)
+        places.emplace_back(positions[3 * node], positions[3 * node + 1], positions[3 * node + 2]);
+      places = fe_space.complete(std::move(places), "Initial/Pose function");
+      Vector all(positions.size());
+      for (unsigned int dof = 0; dof < all.size(); ++dof)
+        all[dof] = places[dof / 3][dof % 3];
+      return all;
+    }
+  } // namespace
+
   State
   initial_state(const InitialParameters &parameters,
                 const Mesh              &mesh,
@@ -19,7 +35,7 @@ namespace Exemplar
     {
       const auto set = [&]
       {
-        for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
+        for (unsigned int node = 0; node < fe_space.numbering().n_places(); ++node)
         {
           const dealii::Tensor<1, 3> value = expression.vector(fe_space.rest_position(node), 0.);
           for (unsigned int c = 0; c < 3; ++c)
@@ -36,8 +52,12 @@ namespace Exemplar
         state.positions[dof] = nodes[dof / 3][dof % 3];
     }
     else if (!parameters.pose_function.empty())
+    {
       set_node_field(Expression("Initial/Pose function", parameters.pose_function, "xyz", 3),
                      state.positions);
+      if (fe_space.numbering().has_slopes())
+        state.positions = with_tips_of_least_bending(state.positions, fe_space);
+    }
     if (dynamic)
     {
       state.velocities.reinit(fe_space.n_dofs());

@@ -24,6 +24,13 @@ namespace Exemplar
     /// turned back, as solutions depend on that cell's rotation.
     constexpr double max_turn = 0.7;
 
+    /// The number of places for functions that move bodies rigidly, which count nodes of the whole body.
+    unsigned int
+    places_of_body(const NodeNumbering &nodes)
+    {
+      return nodes.has_slopes() ? nodes.n_places() : all_places;
+    }
+
     /// Whether the body has a support of its own, which must not determine its rotation.
     bool
     turns_freely(const Problem &problem)
@@ -65,7 +72,7 @@ namespace Exemplar
             [this] { return make_bordered_system(parameters.solver, potential); },
             clock,
             turns_freely(*this) && !parameters.model.is_frozen()
-                ? body.fe_space.numbering().n_places()
+                ? places_of_body(body.fe_space.numbering())
                 : 0),
         solver(make_step_solver(parameters.solver, potential, system, constraints.handles, clock)),
         state(initial_state(parameters.initial,
@@ -161,7 +168,8 @@ namespace Exemplar
     next.step   = state.step + 1;
     if (turns_freely(*this)
         && turn_to_support(*constraints.support, parameters.model.is_frozen() ? 0. : max_turn,
-                           next.positions, body.exchange(), body.fe_space.numbering().n_places()))
+                           next.positions, body.exchange(),
+                           places_of_body(body.fe_space.numbering())))
     {
       solver->forget(); // its memory has not turned with the body
       start(next);
@@ -176,7 +184,7 @@ namespace Exemplar
       if (turns_freely(*this))
       {
         align(state.positions, next.positions, body.exchange(),
-              body.fe_space.numbering().n_places());
+              places_of_body(body.fe_space.numbering()));
         start(next);
       }
       if (parameters.solver.starts == Starts::examples && interval.end == end_of_scene(*this))

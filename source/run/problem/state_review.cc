@@ -194,8 +194,11 @@ namespace Exemplar
       if (problem.parameters.scene != SceneKind::interpolation || !example)
         return {};
       const Exchange &exchange = problem.body.exchange();
-      const auto      reached  = points_of(whole(exchange, problem.state.positions, true));
-      const auto pose = points_of(whole(exchange, problem.examples.poses.pose(*example), true));
+      auto            reached  = points_of(whole(exchange, problem.state.positions, true));
+      auto pose = points_of(whole(exchange, problem.examples.poses.pose(*example), true));
+      if (const NodeNumbering &nodes = problem.body.fe_space.numbering(); nodes.has_slopes())
+        for (auto *const points : { &reached, &pose })
+          points->resize(nodes.n_places());
       const RigidMotion motion = best_rigid_motion(pose, reached);
       double            miss   = 0.;
       for (std::size_t node = 0; node < pose.size(); ++node)
