@@ -229,10 +229,17 @@ namespace Exemplar::Live
   std::vector<std::array<unsigned int, 3>>
   boundary_in(const fs::path &file)
   {
-    const std::string    text         = text_of_file(file);
-    const auto           connectivity = array_in<std::int32_t>(file, text, "connectivity");
-    const auto           offsets      = array_in<std::int32_t>(file, text, "offsets");
-    const std::size_t    n_points     = array_in<double>(file, text, "Points").size() / 3;
+    const std::string text         = text_of_file(file);
+    const auto        connectivity = array_in<std::int32_t>(file, text, "connectivity");
+    const auto        offsets      = array_in<std::int32_t>(file, text, "offsets");
+    const std::size_t n_points     = array_in<double>(file, text, "Points").size() / 3;
+    if (!offsets.empty() && offsets.front() == 3) // the triangles of a shell
+    {
+      std::vector<Face> triangles;
+      for (const auto &polygon : polygons_in(file))
+        triangles.push_back({ { polygon[0], polygon[1], polygon[2] } });
+      return triangles;
+    }
     std::map<Face, Face> open; // sorted nodes -> outwards
     std::size_t          begin = 0;
     for (const std::int32_t end : offsets)

@@ -133,6 +133,17 @@ class Shells(SceneTest):
         self.assertTrue(list(output.glob("*.obj")))
 
 
+    def test_pages_and_game_engines_get_triangles(self):
+        self.write_strip()
+        for formats, words in (("vtu", ("--html", "page.html")), ("vtu, pc2", ("--gltf", "run.glb")), ("vtu, pc2", ("--html", "page.html"))):
+            output = self.solve_shell({"Scene": "interpolation", "Examples/Poses": "rolled.obj", "Time/Increments": "4", "Output/Every": "1",
+                                       "Output/Formats": formats}, output=f"out_{words[0]}_{len(formats)}")
+            run = self.call("export", output, *words)
+            self.assertEqual(run.status, 0, run.stderr)
+            self.assertGreater((self.directory / words[1]).stat().st_size, 1000)
+            (self.directory / words[1]).unlink()
+
+
 class Refused(SceneTest):
     def refuse(self, words, keys, vertices=None, triangles=None):
         flat, faces = strip(1., .25, 4, 1)
