@@ -37,7 +37,7 @@ namespace Exemplar
         // strains and turns of some tenths, different in every cell
         for (unsigned int dof = 0; dof < positions.size(); ++dof)
           positions[dof] += 0.02 * std::sin(40. * positions[dof - dof % 3 + (dof + 1) % 3]);
-        problem.cells.get_field().update_rotations(positions);
+        problem.cells().get_field().update_rotations(positions);
         task.cells = batches.arrays();
         for (unsigned int dof = 0; dof < positions.size(); ++dof)
           node_positions[dof / 3 * 4 + dof % 3] = positions[dof];
@@ -91,7 +91,7 @@ namespace Exemplar
     {
       ElasticEvaluation evaluation;
       for (auto _ : state)
-        scene->problem.cells.evaluate(scene->positions, {}, evaluation, RotationUse::update);
+        scene->problem.cells().evaluate(scene->positions, {}, evaluation, RotationUse::update);
       report_cells(state);
     }
 
@@ -101,7 +101,7 @@ namespace Exemplar
       std::vector<double> values(scene->problem.potential.get_tangent().get_pattern().n_values()),
           columns;
       for (auto _ : state)
-        scene->problem.cells.assemble_tangent(tangent, scene->positions, {}, values, columns);
+        scene->problem.cells().assemble_tangent(tangent, scene->positions, {}, values, columns);
       report_cells(state);
     }
 
@@ -110,7 +110,7 @@ namespace Exemplar
     {
       std::vector<float> rotations;
       for (auto _ : state)
-        scene->problem.cells.get_field().node_rotations(rotations);
+        scene->problem.cells().get_field().node_rotations(rotations);
       report_cells(state);
     }
 
