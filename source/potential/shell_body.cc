@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/loop_parts.h>
+#include <exemplar/body/example_poses.h>
 #include <exemplar/kernels/polar_decomposition.h>
 #include <exemplar/potential/shell_body.h>
 #include <exemplar/potential/weight_energy.h>
@@ -75,10 +76,7 @@ namespace Exemplar
   {
     elasticities.clear();
     for (unsigned int t = 0; t < parts.mesh.triangles().size(); ++t)
-    {
-      const CellMaterial<double> &solid = parts.material.elasticity(t);
-      elasticities.push_back(ShellElasticity::of_solid(solid.lambda, solid.mu, parts.mesh.kind()));
-    }
+      elasticities.push_back(shell_elasticity(parts.material, t, parts.mesh.kind()));
     estimate_rounding();
   }
 
