@@ -138,11 +138,53 @@ namespace Exemplar
   }
 
   void
+  ExamplePoses::compute_changes_of_volumes(const Material &material)
+  {
+    dilatations.clear();
+    std::vector<double> changes(size(), 0.);
+    for (unsigned int piece = 0; piece < volumes.size(); ++piece)
+    {
+      for (unsigned int i = first_strained(); i < size(); ++i)
+        changes[i] = volumes.change(piece, pose(i));
+      for (const unsigned int cell : volumes.triangles(piece))
+      {
+        const double eta = fe_space.shell().triangles()[cell].area / volumes.area(piece)
+                           * importance() * material.importance(cell);
+        strains.for_each_weight(
+            cell, [&](const unsigned int weight, const unsigned int i, const double share)
+            { dilatations.number(piece, weight, 0) += eta * share * changes[i]; });
+      }
+    }
+  }
+
+  TargetEnergy
+  ExamplePoses::energy_of_volumes(const Material &material) const
+  {
+    std::vector<double> stiffness, etas(volumes.size(), 0.);
+    for (unsigned int piece = 0; piece < volumes.size(); ++piece)
+    {
+      stiffness.push_back(material.volume_stiffness() * volumes.rest(piece));
+      for (const unsigned int cell : volumes.triangles(piece))
+        etas[piece] += fe_space.shell().triangles()[cell].area / volumes.area(piece) * importance()
+                       * material.importance(cell);
+    }
+    TargetEnergy energy{ dilatations, { times_stiffness(stiffness) }, {} };
+    energy.excess = { energy.form.dual,
+                      [etas](const unsigned int piece) { return blended_share(etas[piece]); } };
+    return energy;
+  }
+
+  void
   ExamplePoses::compute_energies(const Material &cell_material, const Patches &patches)
   {
     if (fe_space.is_shell())
     {
-      compute({ energy_of_shell(cell_material) });
+      compute_changes_of_volumes(cell_material);
+      TargetEnergy of_volumes = energy_of_volumes(cell_material);
+      TargetEnergy of_shell   = energy_of_shell(cell_material);
+      if (!of_shell.excess.dual)
+        of_volumes.excess = {};
+      compute({ of_shell, of_volumes });
       return;
     }
     compute_dilatations(patches);

@@ -181,20 +181,23 @@ namespace Exemplar
                              const Mesh                     &mesh,
                              const FESpace                  &fe_space,
                              const Patches                  &patches,
+                             EnclosedVolumes                 enclosed,
                              const RegionShares             &shares,
-                             const std::vector<double>      &volumes,
+                             const std::vector<double>      &volumes_of_points,
                              const std::vector<ExamplePose> &poses)
       : ExampleTargets(names_of(poses),
                        parameters.in_use() && parameters.has_rest_pose() ? 1 : 0,
                        shares,
-                       volumes,
+                       volumes_of_points,
                        fe_space.exchange(),
                        parameters.first_number()),
         fe_space(fe_space), laws(laws), rule{ parameters.acts_on, parameters.in_single_precision },
         bending_importance(parameters.bending_importance),
-        strains(fe_space.is_shell() ? shell_space : strain_space, *this, volumes, shares),
-        dilatations(
-            { 1, { 0 } }, WeightNumbers(n_weights()), std::vector<double>(patches.size(), 1.)),
+        strains(fe_space.is_shell() ? shell_space : strain_space, *this, volumes_of_points, shares),
+        volumes(std::move(enclosed)),
+        dilatations({ 1, { 0 } },
+                    WeightNumbers(n_weights()),
+                    std::vector<double>(patches.size() + volumes.size(), 1.)),
         warnings(review(parameters, mesh, fe_space, poses))
   {
     for (const ExamplePose &pose : poses)
@@ -214,6 +217,9 @@ namespace Exemplar
                       mesh,
                       fe_space,
                       patches,
+                      fe_space.is_shell() && cell_material.volume_stiffness() > 0.
+                          ? EnclosedVolumes(fe_space.shell())
+                          : EnclosedVolumes(),
                       make_regions(parameters, mesh, fe_space, painted),
                       parameters.in_use() ? fe_space.get_volumes() : std::vector<double>(),
                       make_poses(parameters, mesh, fe_space, named_poses) }

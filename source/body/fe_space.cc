@@ -137,11 +137,10 @@ namespace Exemplar
     const std::vector<double> slopes = strains.least_bending_slopes(
         positions, [this](const unsigned int triangle) { return sections[triangle].elasticity; });
     for (unsigned int edge = 0; edge < slopes.size(); ++edge)
-    {
       positions[3 * shell_mesh->slope_node(edge)] = slopes[edge];
-      const Vector3<double> tip                   = strains.tip(edge, positions);
-      places.emplace_back(tip[0], tip[1], tip[2]);
-    }
+    positions = with_tips(std::move(positions), std::vector<bool>(slopes.size(), false));
+    for (unsigned int node = mesh.n_nodes(); node < n_nodes(); ++node)
+      places.emplace_back(positions[3 * node], positions[3 * node + 1], positions[3 * node + 2]);
     return places;
   }
 

@@ -23,7 +23,7 @@ namespace Exemplar
              "handle, as in a clamp or a "
              "plane of symmetry; free: the shell turns about these edges as about a hinge; auto: "
              "held where Components "
-             "are x, y, z, else free.");
+             "are x, y, z and no cache is followed, which has no normals; else free.");
     keys.add_file("Follow pose", follow_pose,
                   "A .msh file with the nodes and tetrahedra of the mesh, or a surface as in "
                   "Examples/Poses: the held nodes go to their places in this pose, turned and "
@@ -57,7 +57,9 @@ namespace Exemplar
   bool
   HandleParameters::holds_slopes() const
   {
-    return slopes == "held" || (slopes == "auto" && components == HandleParameters().components);
+    return slopes == "held"
+           || (slopes == "auto" && components == HandleParameters().components
+               && follow_cache.empty());
   }
 
   HoldingTime

@@ -186,7 +186,8 @@ namespace Exemplar
                      const MshFile                   &names,
                      const PaintedMaterial           &painted,
                      std::vector<GrainAxes>           axes_of_cells)
-      : constants_of_cell(material_ids.size(), 0), axes(std::move(axes_of_cells))
+      : constants_of_cell(material_ids.size(), 0), axes(std::move(axes_of_cells)),
+        stiffness_of_volume(parameters.volume_stiffness)
   {
     std::vector<ElasticConstants> bases{ parameters.everywhere };
     std::vector<std::string>      sections{ "Material" };

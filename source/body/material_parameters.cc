@@ -308,8 +308,9 @@ namespace Exemplar
              "consistent, or lumped at the nodes. Used by dynamics, and by gravity on quadratic "
              "elements.");
     keys.add("Volume stiffness", volume_stiffness,
-             "Of a closed shell: resistance [Pa] of the volume that it encloses; 0: none. Others "
-             "are refused yet.",
+             "Of a closed shell (Mesh/Kind): resistance [Pa] of the volume that each of its pieces "
+             "encloses, a bulk modulus of what is inside; 0: none. Examples say how that volume "
+             "changes, as they do of strains.",
              Bounds{ 0. });
     keys.add_file("Young's modulus map", youngs_modulus_map,
                   "E painted on the surface: MAP [from A to B] [absolute], where MAP is "
@@ -323,6 +324,8 @@ namespace Exemplar
                   "nu painted on the surface, as Young's modulus map says.");
     keys.add_file("Density map", density_map,
                   "rho painted on the surface, as Young's modulus map says.");
+    keys.add_file("Thickness map", thickness_map,
+                  "Of a shell: its thickness painted on it, as Young's modulus map says.");
     keys.add_file(
         "Importance map", importance_map,
         "Importance painted on the surface: FILE.ply:ATTRIBUTE or FILE.csv[:COLUMN] with a "

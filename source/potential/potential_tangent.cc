@@ -142,8 +142,8 @@ namespace Exemplar
                              OuterProducts             *products,
                              const Terms                which)
   {
-    Assert(!pattern.products_are_apart || products != nullptr, dealii::ExcInternalError());
-    if (!pattern.products_are_apart)
+    Assert(!(pattern.products_are_apart || body.has_dense_products()) || products != nullptr, dealii::ExcInternalError());
+    if (!pattern.products_are_apart && !body.has_dense_products())
       products = nullptr; // all is on the pattern
     assemble_one(convexity < 1. ? Tangent::exact : Tangent::convex, positions, at_weights,
                  matrix_values, columns, products, which);

@@ -64,7 +64,11 @@ namespace Exemplar
   } // namespace
 
   ShellBody::ShellBody(const ShellParts &parts)
-      : parts(parts), strains(parts.mesh), triangles(parts.mesh.triangles().size())
+      : parts(parts), strains(parts.mesh), volumes(parts.volumes,
+                                                   parts.material.volume_stiffness(),
+                                                   parts.examples,
+                                                   parts.targets_of_volumes),
+        triangles(parts.mesh.triangles().size())
   {
     for (const ShellTriangle &triangle : parts.mesh.triangles())
       frames.push_back(triangle.axes);
@@ -77,6 +81,7 @@ namespace Exemplar
     elasticities.clear();
     for (unsigned int t = 0; t < parts.mesh.triangles().size(); ++t)
       elasticities.push_back(shell_elasticity(parts.material, t, parts.mesh.kind()));
+    volumes.set_stiffness(parts.material.volume_stiffness());
     estimate_rounding();
   }
 
@@ -116,8 +121,9 @@ namespace Exemplar
       }
     }
     const Exchange &exchange = parts.fe_space.exchange();
-    force_of_rounding  = std::sqrt(exchange.max(*std::max_element(forces.begin(), forces.end())));
-    stress_of_rounding = std::sqrt(exchange.sum(squares));
+    force_of_rounding = std::sqrt(exchange.max(*std::max_element(forces.begin(), forces.end())))
+                        + volumes.force_of(of_positions);
+    stress_of_rounding = std::sqrt(exchange.sum(squares) + volumes.stress_square_of(of_positions));
     strain_of_rounding = std::sqrt(exchange.sum(squares_of_strains));
   }
 
@@ -143,6 +149,7 @@ namespace Exemplar
     if (s == 0.)
       return;
     damping = s;
+    volumes.begin_step(s, past);
     past_strains.assign(parts.mesh.triangles().size(), ShellStrain{});
     for (const WeightedPositions &positions : past)
     {
@@ -158,6 +165,7 @@ namespace Exemplar
   {
     damping = 0.;
     past_strains.clear();
+    volumes.leave_step();
   }
 
   std::vector<double>
@@ -204,6 +212,7 @@ namespace Exemplar
   {
     const unsigned int  n = parts.n_threads;
     std::vector<double> changes(hinges.size());
+    volumes.find_changes(positions);
     for_each_part(n, hinges.size(), n,
                   [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
                   {
@@ -387,6 +396,7 @@ namespace Exemplar
         add_weight_products(t, triangles[t].stress, -1., own->weight_gradient);
     }
     add_hinge_forces(own);
+    volumes.add(positions, weights, with_weights, own);
     result = complete(parts.fe_space.exchange(), std::move(own));
     add_weight_energy(parts.weights, parts.examples.norms(), weights, result);
     if (linear_term != nullptr)
@@ -421,6 +431,7 @@ namespace Exemplar
     std::vector<double> c(parts.examples.n_weights(), 0.);
     for (unsigned int t = 0; t < triangles.size(); ++t)
       add_weight_products(t, elasticities[t].stress(triangles[t].strain), 1., c);
+    volumes.add_weight_linear_term(c);
     parts.fe_space.exchange().sum(c);
     parts.weights.get_memory().add_linear_term(c);
     return c;
@@ -452,9 +463,10 @@ namespace Exemplar
   ShellBody::memory_consumption() const
   {
     using dealii::MemoryConsumption::memory_consumption;
-    return strains.memory_consumption() + memory_consumption(pattern->column_start)
-           + memory_consumption(pattern->row) + dofs.capacity() * sizeof(TriangleDofs)
-           + hinges.capacity() * sizeof(HingeState) + triangles.capacity() * sizeof(TriangleState)
+    return strains.memory_consumption() + volumes.memory_consumption()
+           + memory_consumption(pattern->column_start) + memory_consumption(pattern->row)
+           + dofs.capacity() * sizeof(TriangleDofs) + hinges.capacity() * sizeof(HingeState)
+           + triangles.capacity() * sizeof(TriangleState)
            + past_strains.capacity() * sizeof(ShellStrain)
            + elasticities.capacity() * sizeof(ShellElasticity)
            + frames.capacity() * sizeof(frames[0]);

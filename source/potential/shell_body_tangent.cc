@@ -301,7 +301,7 @@ namespace Exemplar
                               const std::vector<double> &weights,
                               std::vector<double>       &matrix_values,
                               std::vector<double>       &columns,
-                              OuterProducts * /*products*/)
+                              OuterProducts             *products)
   {
     constexpr std::size_t at_once = 256;
     find_strains(positions, RotationUse::keep);
@@ -329,6 +329,9 @@ namespace Exemplar
           add_columns(first + i, tangents[i], columns);
       }
     }
+    if (!volumes.empty())
+      volumes.add_tangent(kind, positions, weights, *pattern, parts.free_dofs, matrix_values,
+                          columns, *products);
   }
 
   void
@@ -361,6 +364,7 @@ namespace Exemplar
       if (!by_weights.empty())
         add_weight_products(t, stress, -1., by_weights);
     }
+    volumes.add_response(kind, displacement, positions, weights, gradient, by_weights);
     const Exchange &exchange = parts.fe_space.exchange();
     exchange.assemble(gradient.begin(), 3);
     exchange.sum(by_weights);

@@ -51,6 +51,26 @@ def equilateral(nx, ny):
     return points, triangles
 
 
+def ball(halvings):
+    """An octahedron whose edges are halved so often, with its vertices on the unit sphere; triangles seen from outside."""
+    points = [(1., 0., 0.), (-1., 0., 0.), (0., 1., 0.), (0., -1., 0.), (0., 0., 1.), (0., 0., -1.)]
+    triangles = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+    for _ in range(halvings):
+        numbers, finer = {}, []
+
+        def middle(a, b):
+            if (a, b) not in numbers:
+                sums = [p + q for p, q in zip(points[a], points[b])]
+                numbers[a, b] = numbers[b, a] = len(points)
+                points.append(tuple(x / math.hypot(*sums) for x in sums))
+            return numbers[a, b]
+        for a, b, c in triangles:
+            ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+            finer += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+        triangles = finer
+    return points, triangles
+
+
 def obj_text(vertices, triangles):
     return "".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices) + "".join(
         "f " + " ".join(str(v + 1) for v in face) + "\n" for face in triangles)

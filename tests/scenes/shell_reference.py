@@ -123,6 +123,18 @@ class Shell:
         turn = np.where(self.is_held, change, np.where(self.is_border, slope, change / 2 + slope))
         return np.concatenate([np.stack(membrane, 1), np.einsum('tki,ti->tk', self.bending, turn)], 1)
 
+    def enclosed(self, x):
+        """The volume that a closed shell encloses over that at rest, less 1; and its derivative by positions."""
+        def volume(vertices):
+            a, b, c = (vertices[self.triangles[:, i]] for i in range(3))
+            return np.sum(dot(a, np.cross(b, c))) / 6.
+        n = len(self.rest)
+        vertices, derivative = x[:3 * n].reshape(-1, 3), np.zeros(self.n_dofs)
+        for i in range(3):
+            b, c = (vertices[self.triangles[:, (i + k) % 3]] for k in (1, 2))
+            np.add.at(derivative[:3 * n].reshape(-1, 3), self.triangles[:, i], np.cross(b, c) / 6.)
+        return volume(vertices) / volume(self.rest) - 1., derivative / volume(self.rest)
+
     def slopes_of_strains(self, q):
         """Their derivatives, 6 x 21 of each triangle."""
         columns = []
@@ -143,15 +155,18 @@ def stiffness(E, nu):
     return np.block([[half, np.zeros((3, 3))], [np.zeros((3, 3)), half]])
 
 
-def equilibrium(shell, C, free, start, load, targets=None, weights=None, penalty=None, unknown=False, tolerance=1e-13):
+def equilibrium(shell, C, free, start, load, targets=None, weights=None, penalty=None, unknown=False, tolerance=1e-13, unit=0.,
+                volumes=None):
     """Positions and weights at a minimum of the energy: `free` degrees of freedom from `start` on, under a `load`.
 
     `targets` are importance times the strains of the examples (examples, triangles, 6). With `unknown` weights sum to one
-    and have the quadratic form `penalty`; all must turn out to be positive."""
+    and have the quadratic form `penalty`; all must turn out to be positive. `unit` is the stiffness of the enclosed volume times
+    that volume, and `volumes` what the examples ask for."""
     x = start.copy()
     targets = np.zeros((0, len(shell.triangles), 6)) if targets is None else targets
     w = np.zeros(len(targets)) if weights is None else np.array(weights, float)
     penalty = np.zeros((len(w), len(w))) if penalty is None else penalty
+    volumes = np.zeros(len(w)) if volumes is None else np.asarray(volumes)
     n, n_w = len(free), len(w) if unknown else 0
     volume = shell.volume[:, None]
     index = np.full(shell.n_dofs, -1)
@@ -159,7 +174,8 @@ def equilibrium(shell, C, free, start, load, targets=None, weights=None, penalty
 
     def energy(x, w):
         r = shell.strains(x[shell.local]).real - np.tensordot(w, targets, 1)
-        return 0.5 * np.sum(volume * r * (r @ C)) + 0.5 * w @ penalty @ w - load @ x
+        excess = shell.enclosed(x)[0] - w @ volumes
+        return 0.5 * np.sum(volume * r * (r @ C)) + 0.5 * unit * excess**2 + 0.5 * w @ penalty @ w - load @ x
 
     def local_forces(q, w):
         r = shell.strains(q).real - np.tensordot(w, targets, 1)
@@ -171,8 +187,10 @@ def equilibrium(shell, C, free, start, load, targets=None, weights=None, penalty
         f, B, r = local_forces(q, w)
         gradient = np.zeros(shell.n_dofs)
         np.add.at(gradient, shell.local.ravel(), f.ravel())
-        gradient = (gradient - load)[free]
-        by_weights = -np.einsum('itk,tk->i', targets, volume * (r @ C)) + penalty @ w
+        change, slope = shell.enclosed(x)
+        pressure = unit * (change - w @ volumes)
+        gradient = (gradient - load + pressure * slope)[free]
+        by_weights = -np.einsum('itk,tk->i', targets, volume * (r @ C)) + penalty @ w - pressure * volumes
         gauss = np.einsum('tkp,kl,tlq->tpq', B, C, B) * volume[..., None]
         exact = np.zeros_like(gauss)
         step = 1e-6
@@ -185,9 +203,17 @@ def equilibrium(shell, C, free, start, load, targets=None, weights=None, penalty
         for i in range(len(w)):
             np.add.at(columns[:, i], shell.local.ravel(),
                       np.einsum('tkp,tk->tp', B, volume * (targets[i] @ C)).ravel())
-        gram = np.einsum('itk,kl,jtl,t->ij', targets, C, targets, shell.volume) + penalty
+        columns += unit * np.outer(slope, volumes)
+        gram = np.einsum('itk,kl,jtl,t->ij', targets, C, targets, shell.volume) + penalty + unit * np.outer(volumes, volumes)
+        curved = np.zeros((shell.n_dofs, shell.n_dofs))
+        if unit > 0.:
+            for d in range(3 * len(shell.rest)):
+                up, down = x.copy(), x.copy()
+                up[d] += 1e-3  # a volume is cubic, so that differences are exact
+                down[d] -= 1e-3
+                curved[d] = pressure * (shell.enclosed(up)[1] - shell.enclosed(down)[1]) / 2e-3
         for matrix in (0.5 * (exact + exact.transpose(0, 2, 1)), gauss):
-            K = np.zeros((shell.n_dofs, shell.n_dofs))
+            K = unit * np.outer(slope, slope) + (curved if matrix is not gauss else 0.)
             for p in range(21):
                 for s in range(21):
                     np.add.at(K, (shell.local[:, p], shell.local[:, s]), matrix[:, p, s])

@@ -22,14 +22,19 @@ namespace Exemplar::Testing
     static constexpr double E = 2., nu = 0.3, eta = 0.9;
 
     explicit ShellScene(ShellMesh                        of_shell,
-                        const std::vector<Vector>       &poses     = {},
-                        const std::vector<bool>         &held      = {},
-                        const std::vector<unsigned int> &more_held = {},
-                        const double                     poissons  = nu)
+                        const std::vector<Vector>       &poses            = {},
+                        const std::vector<bool>         &held             = {},
+                        const std::vector<unsigned int> &more_held        = {},
+                        const double                     poissons         = nu,
+                        const double                     volume_stiffness = 0.)
         : mesh(std::move(of_shell)), solid(box()), fe_space(solid),
-          material(make_material(mesh, poissons)),
+          material(make_material(mesh, poissons, volume_stiffness)),
           examples(names(poses.size()), poses.empty() ? 0 : 1, {}, volumes(), Exchange::serial()),
           targets({ 6, shell_strain_order() }, examples, volumes()),
+          enclosed(volume_stiffness > 0. ? EnclosedVolumes(mesh) : EnclosedVolumes()),
+          targets_of_volumes({ 1, { 0 } },
+                             WeightNumbers(examples.n_weights()),
+                             std::vector<double>(enclosed.size(), 1.)),
           free_dofs(3 * mesh.n_nodes(), held_dofs(held, more_held), Exchange::serial())
     {
       examples.set_importance(eta);
@@ -37,6 +42,8 @@ namespace Exemplar::Testing
       for (unsigned int i = 0; i < poses.size(); ++i)
       {
         const std::vector<ShellStrain> of_pose = strains.strains(poses[i]);
+        for (unsigned int piece = 0; piece < enclosed.size(); ++piece)
+          targets_of_volumes.number(piece, i + 1, 0) = eta * enclosed.change(piece, poses[i]);
         for (unsigned int t = 0; t < of_pose.size(); ++t)
           for (unsigned int k = 0; k < 6; ++k)
             targets.number(t, i + 1, k) = eta * of_pose[t][k];
@@ -52,7 +59,9 @@ namespace Exemplar::Testing
       if (!poses.empty())
       {
         examples.measure(targets);
-        examples.compute({ { targets, { dual }, {} } });
+        const auto of_volume = [&](const unsigned int piece, const double *a, double *T)
+        { *T = volume_stiffness * enclosed.rest(piece) * *a; };
+        examples.compute({ { targets, { dual }, {} }, { targets_of_volumes, { of_volume }, {} } });
       }
       ExampleParameters parameters;
       parameters.weights        = WeightRule::free;
@@ -64,8 +73,9 @@ namespace Exemplar::Testing
     void
     set_threads(const unsigned int n)
     {
-      body = std::make_unique<ShellBody>(
-          ShellParts{ mesh, fe_space, material, examples, targets, *weights, free_dofs, n });
+      body    = std::make_unique<ShellBody>(ShellParts{ mesh, fe_space, material, examples, targets,
+                                                     enclosed, targets_of_volumes, *weights,
+                                                     free_dofs, n });
       pattern = body->make_pattern({}, false);
       body->attach(pattern);
     }
@@ -81,6 +91,7 @@ namespace Exemplar::Testing
     struct Assembled
     {
       std::vector<double> values, columns;
+      OuterProducts       products;
     };
 
     Assembled
@@ -88,7 +99,7 @@ namespace Exemplar::Testing
     {
       Assembled result;
       result.values.assign(pattern.n_values(), 0.);
-      body->assemble_tangent(kind, x, w, result.values, result.columns);
+      body->assemble_tangent(kind, x, w, result.values, result.columns, &result.products);
       return result;
     }
 
@@ -99,6 +110,18 @@ namespace Exemplar::Testing
       for (unsigned int j = 0; j < pattern.n(); ++j)
         for (int entry = pattern.column_start[j]; entry < pattern.column_start[j + 1]; ++entry)
           A(j, pattern.row[entry]) = A(pattern.row[entry], j) = of.values[entry];
+      for (std::size_t k = 0; k < of.products.size(); ++k)
+      {
+        std::vector<double> u(pattern.n(), 0.);
+        for (std::size_t i = of.products.begin(k); i < of.products.ends[k]; ++i)
+          for (unsigned int c = 0; c < 3; ++c)
+            if (const int row = free_dofs.free_index(3 * of.products.blocks[i] + c);
+                row != FreeDofs::held)
+              u[row] = of.products.values[3 * i + c];
+        for (unsigned int i = 0; i < u.size(); ++i)
+          for (unsigned int j = 0; j < u.size(); ++j)
+            A(i, j) += of.products.factors[k] * u[i] * u[j];
+      }
       return A;
     }
 
@@ -124,6 +147,8 @@ namespace Exemplar::Testing
     Material                      material;
     ExampleTargets                examples;
     TargetBlock                   targets;
+    EnclosedVolumes               enclosed;
+    TargetBlock                   targets_of_volumes;
     FreeDofs                      free_dofs;
     std::optional<ExampleWeights> weights;
     std::unique_ptr<ShellBody>    body;
@@ -140,11 +165,12 @@ namespace Exemplar::Testing
     }
 
     static Material
-    make_material(const ShellMesh &mesh, const double poissons)
+    make_material(const ShellMesh &mesh, const double poissons, const double volume_stiffness)
     {
       MaterialParameters parameters;
       parameters.everywhere.youngs_modulus = E;
       parameters.everywhere.poissons_ratio = poissons;
+      parameters.volume_stiffness          = volume_stiffness;
       return { parameters, std::vector<unsigned int>(mesh.triangles().size(), 0) };
     }
 

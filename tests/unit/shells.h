@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <random>
 #include <vector>
 
@@ -55,6 +56,45 @@ namespace Exemplar::Testing
                           0.3 * std::sin(3. * x) * y + random(engine) } };
         },
         0.05, true, kind);
+  }
+
+  /// A closed surface around a volume: an octahedron whose edges are halved, moved here and there.
+  inline ShellMesh
+  bumpy_ball(const ShellKind kind = ShellKind::plate)
+  {
+    std::mt19937                                  engine(9);
+    std::uniform_real_distribution<>              random(-0.05, 0.05);
+    std::vector<Place>                            corners, vertices;
+    std::vector<std::array<unsigned int, 3>>      triangles;
+    std::map<std::array<double, 3>, unsigned int> numbers;
+    const auto                                    number_of = [&](const Place &x)
+    {
+      const auto [found, is_new]
+          = numbers.emplace(std::array<double, 3>{ { x[0], x[1], x[2] } }, vertices.size());
+      if (is_new)
+        vertices.push_back(combine(1. / norm(x), x, 1.,
+                                   Place{ { random(engine), random(engine), random(engine) } }));
+      return found->second;
+    };
+    for (const double x : { -1., 1. })
+      for (const double y : { -1., 1. })
+        for (const double z : { -1., 1. })
+        {
+          Place       a{ { x, 0., 0. } }, b{ { 0., y, 0. } };
+          const Place c{ { 0., 0., z } };
+          if (x * y * z < 0.)
+            std::swap(a, b);
+          const auto middle
+              = [](const Place &p, const Place &q) { return combine(0.5, p, 0.5, q); };
+          const std::array<unsigned int, 6> n{ { number_of(a), number_of(b), number_of(c),
+                                                 number_of(middle(a, b)), number_of(middle(b, c)),
+                                                 number_of(middle(c, a)) } };
+          triangles.insert(triangles.end(), { { { n[0], n[3], n[5] } },
+                                              { { n[3], n[1], n[4] } },
+                                              { { n[5], n[4], n[2] } },
+                                              { { n[3], n[4], n[5] } } });
+        }
+    return { vertices, triangles, std::vector<double>(triangles.size(), 0.05), kind };
   }
 
   /// At rest, with slope nodes as they are told.

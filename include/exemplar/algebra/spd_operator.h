@@ -168,6 +168,12 @@ namespace Exemplar
   std::unique_ptr<SpdOperator>
   make_cholmod_operator();
 
+  /// The sum of a matrix, of which this is the operator, and of a few OuterProducts of nodes with factors that are not negative, by the
+  /// formula of Sherman, Morrison and Woodbury: as many more solves a factor. Throws SolverFailure as soon as the matrix without
+  /// products is not positive definite. `free_dofs` must outlive the operator.
+  std::unique_ptr<SpdOperator>
+  make_low_rank_operator(std::unique_ptr<SpdOperator> matrix, const FreeDofs &free_dofs);
+
   /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned with
   /// multigrid on the levels of ML's smoothed aggregation, whose coarse spaces hold the six rigid
   /// motions of the nodes. Results of factorize() and solve() depend on the matrix, the positions of the nodes and the

@@ -2,6 +2,7 @@
 #ifndef exemplar_example_poses_h
 #define exemplar_example_poses_h
 
+#include <exemplar/body/enclosed_volumes.h>
 #include <exemplar/body/example_parameters.h>
 #include <exemplar/body/example_targets.h>
 #include <exemplar/body/fe_space.h>
@@ -108,6 +109,20 @@ namespace Exemplar
       return unpack(sum);
     }
 
+    /// What the pieces of a shell enclose, if that resists.
+    const EnclosedVolumes &
+    get_volumes() const
+    {
+      return volumes;
+    }
+
+    /// Of these, for each weight the change of volume that it asks for.
+    const TargetBlock &
+    get_dilatations() const
+    {
+      return dilatations;
+    }
+
     /// eta dtheta_p/dw of a patch by a weight, Eq. (25): the mean of eta tr E over the volume of
     /// the patch.
     double
@@ -148,8 +163,9 @@ namespace Exemplar
                  const Mesh                     &mesh,
                  const FESpace                  &fe_space,
                  const Patches                  &patches,
+                 EnclosedVolumes                 volumes,
                  const RegionShares             &shares,
-                 const std::vector<double>      &volumes,
+                 const std::vector<double>      &volumes_of_points,
                  const std::vector<ExamplePose> &poses);
 
     /// E_i at a point, and the part of it that examples act on.
@@ -169,6 +185,12 @@ namespace Exemplar
 
     TargetEnergy
     energy_of_shell(const Material &material) const;
+
+    void
+    compute_changes_of_volumes(const Material &material);
+
+    TargetEnergy
+    energy_of_volumes(const Material &material) const;
 
     /// Warns of cells in which keys together ask for no thickness. Collective.
     void
@@ -194,7 +216,8 @@ namespace Exemplar
     const StrainRule         rule;
     const double             bending_importance;
     TargetBlock              strains;
-    TargetBlock              dilatations; ///< of patches, with a list for each weight
+    const EnclosedVolumes    volumes;     ///< of a shell; without pieces where these do not resist
+    TargetBlock              dilatations; ///< of patches, or these, with a list for each weight
     std::vector<std::string> warnings;
   };
 } // namespace Exemplar

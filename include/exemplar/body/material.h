@@ -25,7 +25,7 @@ namespace Exemplar
   struct PaintedMaterial
   {
     PaintedConstant youngs_modulus = {}, poissons_ratio = {}, density = {}, importance = {};
-    PaintedConstant fibre_tension = {};
+    PaintedConstant fibre_tension = {}, thickness = {};
     /// Fibre direction, components x, y and z; empty: not painted.
     std::vector<std::vector<double>> fibre_direction = {};
   };
@@ -190,7 +190,7 @@ namespace Exemplar
     void
     serialize(Archive &archive, unsigned int /*version*/)
     {
-      archive &constants &constants_of_cell &axes &stiffnesses &fibre_tensions;
+      archive &constants &constants_of_cell &axes &stiffnesses &fibre_tensions &stiffness_of_volume;
     }
 
     double
@@ -248,6 +248,13 @@ namespace Exemplar
       return fibre_tensions;
     }
 
+    /// What the volume that a closed shell encloses resists [Pa]; 0: nothing.
+    double
+    volume_stiffness() const
+    {
+      return stiffness_of_volume;
+    }
+
     /// Young's modulus of C_e [Pa].
     double
     youngs_modulus_of_examples(const unsigned int cell) const
@@ -272,6 +279,7 @@ namespace Exemplar
     std::vector<GrainAxes>              axes;        ///< material axes by cell; empty: isotropic
     std::vector<std::array<double, 22>> stiffnesses; ///< numbers of C by cell; may be empty
     FibreTensions                       fibre_tensions;
+    double                              stiffness_of_volume = 0.; ///< [Pa]
   };
 } // namespace Exemplar
 

@@ -83,7 +83,7 @@ namespace Exemplar
     std::map<unsigned int, ElasticConstants> regions;       ///< regions by material id
     std::map<std::string, ElasticConstants>  named_regions; ///< regions by name, as in the scene
     /// Painted maps, each with its mode of use; empty: none.
-    std::string youngs_modulus_map, poissons_ratio_map, density_map, importance_map,
+    std::string youngs_modulus_map, poissons_ratio_map, density_map, thickness_map, importance_map,
         fibre_tension_map;
     std::vector<std::string> fibre_direction_maps; ///< maps of x, y and z; empty: none
 
@@ -91,7 +91,7 @@ namespace Exemplar
     is_painted() const
     {
       return !youngs_modulus_map.empty() || !poissons_ratio_map.empty() || !density_map.empty()
-             || !fibre_direction_maps.empty() || !importance_map.empty()
+             || !thickness_map.empty() || !fibre_direction_maps.empty() || !importance_map.empty()
              || !fibre_tension_map.empty();
     }
 

@@ -44,6 +44,14 @@ namespace Exemplar
     virtual bool
     couples_by_products() const = 0;
 
+    /// Whether its tangent has outer products over many nodes, which no pattern takes: assemble_tangent() needs
+    /// OuterProducts then, whatever the pattern is.
+    virtual bool
+    has_dense_products() const
+    {
+      return false;
+    }
+
     /// The pattern, of make_pattern(), or what is held, is another from now on. It outlives the body.
     virtual void
     attach(const SymmetricPattern &pattern)

@@ -8,6 +8,7 @@
 #include <exemplar/body/shell_strains.h>
 #include <exemplar/body/target_block.h>
 #include <exemplar/potential/elastic_body.h>
+#include <exemplar/potential/volume_resistance.h>
 
 #include <cmath>
 #include <vector>
@@ -18,12 +19,14 @@ namespace Exemplar
   /// its examples. All must outlive whoever holds this.
   struct ShellParts
   {
-    const ShellMesh      &mesh;
-    const FESpace        &fe_space; ///< for its exchange and its order of cells alone
-    const Material       &material;
-    const ExampleTargets &examples;
-    const TargetBlock    &targets; ///< strains, see ShellStrain
-    ExampleWeights       &weights;
+    const ShellMesh       &mesh;
+    const FESpace         &fe_space; ///< for its exchange and its order of cells alone
+    const Material        &material;
+    const ExampleTargets  &examples;
+    const TargetBlock     &targets; ///< strains, see ShellStrain
+    const EnclosedVolumes &volumes; ///< that resist; none where Material::volume_stiffness() is 0
+    const TargetBlock     &targets_of_volumes; ///< changes of these, see VolumeResistance
+    ExampleWeights        &weights;
     const FreeDofs
         &free_dofs; ///< a slope node of which the first component is held is held as a whole
     unsigned int n_threads = 1; ///< of the loops; no result depends on it
@@ -44,6 +47,12 @@ namespace Exemplar
     couples_by_products() const override
     {
       return false;
+    }
+
+    bool
+    has_dense_products() const override
+    {
+      return !volumes.empty();
     }
 
     void
@@ -275,6 +284,7 @@ namespace Exemplar
 
     const ShellParts                            parts;
     ShellStrains                                strains;
+    VolumeResistance                            volumes;
     std::vector<ShellElasticity>                elasticities;
     const SymmetricPattern                     *pattern = nullptr; ///< since attach()
     std::vector<TriangleDofs>                   dofs;              ///< since attach()

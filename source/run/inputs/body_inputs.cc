@@ -29,7 +29,9 @@ namespace Exemplar
 
     /// The thickness of each triangle [m]. Throws UserError for one that is thick beside the edges.
     std::vector<double>
-    thicknesses_of(const MaterialParameters &parameters, const Mesh &mesh)
+    thicknesses_of(const MaterialParameters &parameters,
+                   const Mesh               &mesh,
+                   const PaintedConstant    &painted)
     {
       constexpr double thickest = 0.5; // of the mean length of edges
       const auto       edges    = edges_of(mesh.get_triangles());
@@ -38,11 +40,13 @@ namespace Exemplar
         mean += mesh.get_nodes()[a].distance(mesh.get_nodes()[b]) / double(edges.size());
       const auto          regions = regions_by_id(parameters, mesh.get_contents());
       std::vector<double> thicknesses;
-      for (const unsigned int id : mesh.get_material_ids())
+      for (std::size_t cell = 0; cell < mesh.get_material_ids().size(); ++cell)
       {
-        const auto region = regions.find(id);
+        const auto region = regions.find(mesh.get_material_ids()[cell]);
         thicknesses.push_back(
             (region == regions.end() ? parameters.everywhere : region->second).thickness);
+        if (!painted.values.empty())
+          thicknesses.back() = (painted.is_factor ? thicknesses.back() : 1.) * painted.values[cell];
         if (thicknesses.back() > thickest * mean)
           throw UserError(fmt::format(
               "Material/Thickness = {}: is more than half of the edges' mean length, {} m, for "
@@ -83,7 +87,7 @@ namespace Exemplar
       named.insert(readings.nodes.begin(), readings.nodes.end());
       BodyFields fields;
       if (mesh.is_shell())
-        fields.thicknesses = thicknesses_of(scene.material, mesh);
+        fields.thicknesses = thicknesses_of(scene.material, mesh, readings.material.thickness);
       fields.material = Material(
           scene.material, mesh.get_material_ids(), mesh.get_contents(), readings.material,
           find_grain_axes(scene.material, mesh, named, readings.material.fibre_direction,

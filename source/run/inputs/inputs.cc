@@ -159,6 +159,7 @@ namespace Exemplar
         add_map(scene.material.youngs_modulus_map, "Material/Young's modulus map");
         add_map(scene.material.poissons_ratio_map, "Material/Poisson's ratio map");
         add_map(scene.material.density_map, "Material/Density map");
+        add_map(scene.material.thickness_map, "Material/Thickness map");
         add_map(scene.material.importance_map, "Material/Importance map");
         add_map(scene.material.fibre_tension_map, "Material/Fibre tension map");
         for (const std::string &map : scene.material.fibre_direction_maps)

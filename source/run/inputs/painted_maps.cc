@@ -164,7 +164,7 @@ namespace Exemplar
                 short_text(low), high < 1. ? " and less than " + short_text(high) : ""));
       }
       const bool scales_one = *std::max_element(factors.begin(), factors.end()) <= 1.;
-      if (low == 0. && use.is_factor != scales_one)
+      if (low >= 0. && use.is_factor != scales_one)
         doubt(from.warnings, key + " = '" + text + "'", values, use.is_factor);
       return { from.selector.at_cells(values), use.is_factor };
     }
@@ -239,6 +239,7 @@ namespace Exemplar
              painted(from, "Density", m.density_map, &ElasticConstants::density, 0., 1e300),
              { importance },
              { tension },
+             painted(from, "Thickness", m.thickness_map, &ElasticConstants::thickness, 1e-6, 1e300),
              direction };
   }
 

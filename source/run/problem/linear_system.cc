@@ -100,8 +100,9 @@ namespace Exemplar
     {
       if (potential.get_tangent().is_always_in_parts())
         return nullptr;
-      const bool may_choose
-          = solver.linear_solver == LinearSolver::automatic && has_iterative_operator();
+      const bool may_choose = solver.linear_solver == LinearSolver::automatic
+                              && has_iterative_operator()
+                              && !potential.get_body().has_dense_products();
       auto matrix = solver.linear_solver == LinearSolver::cholmod
                         ? make_cholmod_operator()
                         : make_cholesky_operator(solver.n_threads);
@@ -155,6 +156,8 @@ namespace Exemplar
                                        tolerance_of_solves(solver, n_examples));
       matrix->reinit(pattern);
     }
+    if (potential.get_body().has_dense_products())
+      matrix = make_low_rank_operator(std::move(matrix), potential.get_free_dofs());
     return make_block_system(std::move(matrix), form, exchange);
   }
 } // namespace Exemplar

@@ -271,7 +271,8 @@ namespace Exemplar
     if (body.mesh.is_shell())
       return std::make_unique<ShellBody>(
           ShellParts{ body.fe_space.shell(), body.fe_space, body.material, poses,
-                      poses.get_strains(), weights, free_dofs, parameters.solver.n_threads });
+                      poses.get_strains(), poses.get_volumes(), poses.get_dilatations(), weights,
+                      free_dofs, parameters.solver.n_threads });
     return std::make_unique<ElasticPotential>(
         elastic_parts(parameters, body, poses, weights, free_dofs));
   }

@@ -47,9 +47,15 @@ namespace Exemplar
   {
     const bool is_shell = mesh.kind == MeshKind::shell;
     for (const HandleParameters &handle : handles)
-      refuse({ { !is_shell && handle.slopes != HandleParameters().slopes,
-                 "Handles/" + handle.name
-                     + "/Slopes is of shells. Set Mesh/Kind = shell, or remove it." } });
+      refuse(
+          { { is_shell && handle.slopes == "held" && !handle.follow_cache.empty(),
+              "Handles/" + handle.name
+                  + "/Slopes = held: a cache (Follow cache) says where vertices are, and nothing "
+                    "of the normals between them. Set Slopes = free, and hold two rows of "
+                    "vertices for a clamp." },
+            { !is_shell && handle.slopes != HandleParameters().slopes,
+              "Handles/" + handle.name
+                  + "/Slopes is of shells. Set Mesh/Kind = shell, or remove it." } });
     material.for_each_section(
         [&](const ElasticConstants &constants, const std::string &section)
         {
@@ -61,7 +67,9 @@ namespace Exemplar
                            "what the "
                            "sheet measures, 0.001 for a millimetre." } });
         });
-    refuse({ { !is_shell && material.volume_stiffness > 0.,
+    refuse({ { !is_shell && !material.thickness_map.empty(),
+               "Material/Thickness map is of shells. Set Mesh/Kind = shell, or remove it." },
+             { !is_shell && material.volume_stiffness > 0.,
                "Material/Volume stiffness is of shells. Set Mesh/Kind = shell, or remove it." } });
     if (!is_shell)
       return;
@@ -77,16 +85,15 @@ namespace Exemplar
           key
               + "Mesh/Generator makes tetrahedra. Give a surface or a .msh of triangles as "
                 "Mesh/File." },
-        { material.volume_stiffness > 0.,
-          key + "Material/Volume stiffness is not there yet. Set it to 0." },
-        { material.is_painted(), key
-                                     + "painted maps of Material are not for shells yet. Give "
-                                       "regions their constants instead." },
-        { examples.are_painted() || reads_off_surface(),
+        { material.volume_stiffness > 0.
+              && (solver.linear_solver == LinearSolver::iterative
+                  || solver.linear_solver == LinearSolver::umfpack),
           key
-              + "what is read off a surface (Follow cache, Select = near or painted, maps) is "
-                "not for shells yet. Select by "
-                "box, sphere, region, set or nodes." },
+              + "Material/Volume stiffness couples all nodes, which Solver/Linear solver = "
+                "iterative and umfpack do not take. Set it to auto." },
+        { reads_off_surface() && !is_surface_file(mesh.file) && !mesh.file.empty(),
+          key + key_read_off_surface() + " is read off a surface, of which Mesh/File = " + mesh.file
+              + " is none. Give an .obj, .ply or .stl, or remove it." },
         { !mesh.surface.empty(), key
                                      + "Mesh/Surface is the surface that cells fill, but a shell "
                                        "is its own. Remove it." },

@@ -127,6 +127,23 @@ namespace Exemplar
     hang(all_nodes, {});
   }
 
+  SurfaceAttachment::SurfaceAttachment(std::vector<unsigned int> which, TriangleSurface surface)
+      : nodes(std::move(which)), areas(nodes.size(), 0.), distances(nodes.size(), 0.),
+        rest(std::move(surface)), offsets(nodes.size())
+  {
+    std::vector<SurfacePoint> of_vertices(rest.vertices.size());
+    for (unsigned int t = 0; t < rest.triangles.size(); ++t)
+      for (unsigned int a = 0; a < 3; ++a)
+      {
+        SurfacePoint &point = of_vertices[rest.triangles[t][a]];
+        point               = {};
+        point.triangle      = t;
+        point.share[a]      = 1.;
+      }
+    for (const unsigned int node : nodes)
+      points.push_back(of_vertices[node]);
+  }
+
   void
   SurfaceAttachment::hang(const Points &all_nodes, const std::vector<SpaceVector> &normals)
   {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -28,6 +29,17 @@ namespace Exemplar
         for (double &x : vertex)
           x *= scale;
       return triangles;
+    }
+
+    /// Where nodes are attached: those of the boundary, or all of a shell.
+    SurfaceAttachment
+    attached(const Mesh &mesh, TriangleSurface surface)
+    {
+      if (!mesh.is_shell())
+        return { mesh.get_nodes(), mesh.get_boundary_faces(), std::move(surface) };
+      std::vector<unsigned int> all(mesh.n_nodes());
+      std::iota(all.begin(), all.end(), 0);
+      return { std::move(all), std::move(surface) };
     }
 
     double
@@ -91,9 +103,10 @@ namespace Exemplar
                                    const double       scale,
                                    const std::string &surface_name)
       : mesh(mesh), surface(surface), name(surface_name),
-        boundary(mesh.get_nodes(), mesh.get_boundary_faces(), scaled_triangles(surface, scale))
+        boundary(attached(mesh, scaled_triangles(surface, scale)))
   {
-    check_attachment(boundary, mesh, name);
+    if (!mesh.is_shell())
+      check_attachment(boundary, mesh, name);
   }
 
   std::vector<unsigned int>
@@ -267,6 +280,11 @@ namespace Exemplar
   std::vector<double>
   SurfaceSelector::at_cells(const std::vector<double> &values) const
   {
+    std::vector<double> result;
+    for (const auto &[a, b, c] : mesh.get_triangles())
+      result.push_back((values[a] + values[b] + values[c]) / 3.);
+    if (mesh.is_shell())
+      return result;
     if (centres.empty())
     {
       std::vector<SurfaceMesh::Vertex> places;
@@ -279,7 +297,6 @@ namespace Exemplar
       }
       centres = closest_points(boundary.get_surface(), places);
     }
-    std::vector<double> result;
     for (const SurfacePoint &point : centres)
       result.push_back(value_at(point, boundary.get_surface(), values));
     return result;
@@ -288,6 +305,8 @@ namespace Exemplar
   SurfaceAttachment
   SurfaceSelector::hang(const std::vector<unsigned int> &nodes) const
   {
+    if (mesh.is_shell())
+      return { nodes, boundary.get_surface() };
     return { mesh.get_nodes(), nodes, boundary.get_surface() };
   }
 } // namespace Exemplar

@@ -13,19 +13,27 @@ namespace Exemplar::Testing
   {
     const std::vector<double> some_weights = { 0.5, 0.6, -0.2 };
 
-    /// A curved patch with two examples, of which the slope nodes of every third edge are held, and some
+    /// A patch, or a ball that resists changes of its volume.
+    struct ShellCase
+    {
+      ShellKind kind             = ShellKind::plate;
+      double    volume_stiffness = 0.;
+    };
+
+    /// A curved patch or a ball with two examples, of which the slope nodes of every third edge are held, and some
     /// components of vertices.
     ShellScene
-    patch_scene(const ShellKind kind = ShellKind::plate)
+    patch_scene(const ShellCase &of = {})
     {
-      const ShellMesh    mesh = bumpy_patch(kind);
+      const ShellKind    kind = of.kind;
+      const ShellMesh    mesh = of.volume_stiffness > 0. ? bumpy_ball(kind) : bumpy_patch(kind);
       const ShellStrains strains(mesh);
       const auto         bend = [](const Place &x) {
         return Place{ { x[0], std::cos(x[0]) * x[1], x[2] + std::sin(x[0]) * x[1] } };
       };
       return ShellScene(mesh, { disturbed(strains, 0.03), disturbed(strains, 0.01, bend) },
                         kind == ShellKind::plate ? every(3, mesh) : std::vector<bool>(),
-                        { 0, 1, 2, 10, 30, 31 });
+                        { 0, 1, 2, 10, 30, 31 }, ShellScene::nu, of.volume_stiffness);
     }
 
     Vector
@@ -56,13 +64,16 @@ namespace Exemplar::Testing
       return up /= 2. * step;
     }
 
-    class ShellBodies : public testing::TestWithParam<ShellKind>
+    class ShellBodies : public testing::TestWithParam<ShellCase>
     {
     };
 
     INSTANTIATE_TEST_SUITE_P(OfBothKinds,
                              ShellBodies,
-                             testing::Values(ShellKind::plate, ShellKind::hinges));
+                             testing::Values(ShellCase{ ShellKind::plate, 0. },
+                                             ShellCase{ ShellKind::hinges, 0. },
+                                             ShellCase{ ShellKind::plate, 0.3 },
+                                             ShellCase{ ShellKind::hinges, 0.3 }));
 
     TEST_P(ShellBodies, HasForcesThatAreTheGradientOfItsEnergy)
     {

@@ -29,6 +29,9 @@ namespace Exemplar
                       std::vector<unsigned int> which,
                       TriangleSurface           surface);
 
+    /// Attaches the given nodes of a shell to the surface that it is: node i is vertex i; their get_areas() are 0.
+    SurfaceAttachment(std::vector<unsigned int> which, TriangleSurface surface);
+
     /// The attached nodes: boundary nodes, ascending, or those that were given.
     const std::vector<unsigned int> &
     get_nodes() const

@@ -16,7 +16,7 @@ namespace Exemplar
   class SurfaceSelector
   {
   public:
-    /// `surface` is in the unit of its file, of which `scale` makes metres. Keeps references to
+    /// `surface` is around the cells, or a shell's own. It is in the unit of its file, of which `scale` makes metres. Keeps references to
     /// mesh and surface. Throws UserError if the mesh is not one of the surface's inside.
     SurfaceSelector(const Mesh        &mesh,
                     const SurfaceMesh &surface,
@@ -35,7 +35,7 @@ namespace Exemplar
     select(const std::string &text, const std::string &key, const NamedMaps &maps) const;
 
     /// Values at the cells: the value at the point of the surface nearest to each cell's centre,
-    /// linear over each triangle between `values` at the vertices.
+    /// linear over each triangle between `values` at the vertices; at the centre of each triangle of a shell.
     std::vector<double>
     at_cells(const std::vector<double> &values) const;
 
