@@ -322,6 +322,37 @@ def skin_scene_case(r, _):
                 check=r.choice([None, "again", "validate"]))
 
 
+SHELL = {"Mesh/Kind": "shell", "Material/Thickness": "0.05", "Examples/Importance": "0.7"}
+
+
+def shell_case(r, keys):
+    """A shell of a surface, or of a run's result, with any keys, numbers, formulas or a spoilt file."""
+    ending, make = skins.form_of(r)
+    rest, posed = "rest" + ending, "posed" + ending
+    files = {rest: make(skins.box_skin()), posed: make(skins.box_skin(bases.bent))}
+    entries = {**SHELL, "Mesh/File": rest, **r.choice([{**bases.LATER, "Scene": "dynamic"}, {"Scene": "static", "Time/Increments": "2"}]),
+               **bases.HELD, "Handles/left/Select": "box -1 -1 -1 0.1 1 1", "Loads/Gravity": "0, 0, -1"}
+    entries.update(r.choice([{}, {"Examples/Poses": posed}, {"Examples/Pose functions": bases.BENT}]))
+    entries.update(r.choice([{}, {"Model/Shell": "hinges"}, {"Handles/left/Slopes": "free"}]))
+    if r.random() < 0.4:
+        entries["Material/Volume stiffness"] = r.choice(["1e5", "1e5", mutations.magnitude(r, "a number >= 0")])
+    what = r.randrange(4)
+    if what == 0:
+        name, moved = r.choice([(rest, bases.place), (posed, bases.bent)])
+        files[name] = skins.spoilt(r, skins.box_skin(moved), make)
+    elif what == 1:
+        entries = dict(entry for entry in spoil_scene(r, keys[0], entries.items()))
+    elif what == 2:
+        numeric = [path for path, allowed in keys[0].items() if "number" in allowed and "/NAME/" not in path and path not in mutations.NUMBERS_OF]
+        for path in ["Material/Thickness"] * r.randrange(2) + r.sample(numeric, 1):
+            n = 3 if "three" in keys[0][path] else 1
+            entries[path] = ", ".join(mutations.magnitude(r, keys[0][path]) for _ in range(n))
+    else:
+        path = r.choice(["Examples/Pose functions", "Initial/Pose function", "Initial/Velocity", "Handles/left/Motion"])
+        entries[path] = mutations.formulas(r, path.split("/")[-1])
+    return Case("shell", {**files, "scene.prm": prm_bytes(entries.items())}, ["scene.prm", *OUT], check=r.choice([None, None, "again", "validate"]))
+
+
 MAPS = ["Material/Young's modulus map", "Material/Poisson's ratio map", "Material/Density map", "Examples/Weight maps"]
 
 
@@ -397,7 +428,7 @@ def format_case(r, _):
     return Case("format", {**files, "scene.prm": prm_bytes(entries.items())}, ["scene.prm", *OUT], check="second_reader")
 
 
-KINDS = [(format_case, 8), (session_case, 6), (export_case, 6), (painted_case, 4), (state_case, 4), (surface_case, 2), (posed_case, 3), (skin_scene_case, 2), (scene_case, 20), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3),
+KINDS = [(shell_case, 8), (format_case, 8), (session_case, 6), (export_case, 6), (painted_case, 4), (state_case, 4), (surface_case, 2), (posed_case, 3), (skin_scene_case, 2), (scene_case, 20), (extreme_case, 16), (formula_case, 12), (mesh_case, 16), (pose_case, 8), (list_case, 3),
          (study_case, 5), (checkpoint_case, 8), (command_case, 7), (geo_case, 1), (directory_case, 3)]
 PLACES = ["a b", "é", "a#b", "a,b", "a;b", 'a"b', "a\nb", "\udcff", "%s", "a\\", "-", "n" * 200, "$HOME", "a=b", "a'b", "a|b",
           "\x1b[1m"]
