@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/errors.h>
 #include <exemplar/body/fe_space.h>
+#include <exemplar/mesh/mesh_checks.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <fmt/core.h>
+
+#include <algorithm>
 
 namespace Exemplar
 {
@@ -70,6 +76,30 @@ namespace Exemplar
 
   namespace
   {
+    /// Throws UserError where triangles have no area, whose strains and angles are not defined.
+    void
+    refuse_collapsed(const std::vector<dealii::Point<3>> &places,
+                     const Mesh                          &mesh,
+                     const std::string                   &key)
+    {
+      constexpr double collapsed = 1e-10; // twice the area over the square of the longest edge
+      std::vector<std::size_t> elements;
+      for (unsigned int t = 0; t < mesh.get_triangles().size(); ++t)
+      {
+        const auto &[a, b, c] = mesh.get_triangles()[t];
+        const auto   ab = places[b] - places[a], ac = places[c] - places[a];
+        const double longest
+            = std::max({ ab.norm_square(), ac.norm_square(), (ab - ac).norm_square() });
+        if (!(dealii::cross_product_3d(ab, ac).norm() > collapsed * longest))
+          elements.push_back(mesh.element_number(t));
+      }
+      if (!elements.empty())
+        throw UserError(
+            fmt::format("{}: {} of {} triangles have no area there: element {}. A shell that is a "
+                        "line or a point has no strains. Give places that keep its area.",
+                        key, elements.size(), mesh.get_triangles().size(), list_numbers(elements)));
+    }
+
     std::unique_ptr<const ShellMesh>
     make_shell_mesh(const Mesh                       &mesh,
                     const std::vector<ShellSection>  &sections,
@@ -127,6 +157,8 @@ namespace Exemplar
   std::vector<dealii::Point<3>>
   FESpace::complete(std::vector<dealii::Point<3>> places, const std::string &key) const
   {
+    if (is_shell())
+      refuse_collapsed(places, mesh, key);
     if (!nodes_of_element.has_slopes() || places.size() == n_nodes())
       return nodes_of_element.complete(std::move(places), key);
     Vector positions(n_dofs());

@@ -82,6 +82,48 @@ namespace Exemplar
     }
 
     std::string
+    describe_size(const double size_ratio)
+    {
+      if (size_ratio * max_size_ratio < 1.)
+        return "has collapsed: it has " + short_text(size_ratio)
+               + " of the rest pose's size. If its unit of length is another one, scale it.";
+      if (size_ratio > max_size_ratio)
+        return "is " + short_text(size_ratio)
+               + " times as large as the rest pose. If its unit of length is another one, scale "
+                 "it.";
+      return "";
+    }
+
+    const std::string no_strain = "is the rest pose, moved rigidly at most: it has no strain, and "
+                                  "pulls the body nowhere.";
+
+    /// A shell may be flat, folded or turned inside out.
+    std::string
+    describe_pose_of_shell(const FESpace                &fe_space,
+                           const dealii::Vector<double> &positions,
+                           const bool                    may_be_rest)
+    {
+      const ShellMesh &shell = fe_space.shell();
+      double           area = 0., area_at_rest = 0.;
+      for (const ShellTriangle &triangle : shell.triangles())
+      {
+        const Vector3<double> a = place_in(positions, triangle.nodes[0]);
+        area += 0.5
+                * norm(cross(difference(place_in(positions, triangle.nodes[1]), a),
+                             difference(place_in(positions, triangle.nodes[2]), a)));
+        area_at_rest += triangle.area;
+      }
+      const std::string size = describe_size(std::sqrt(area / area_at_rest));
+      if (!size.empty() || may_be_rest)
+        return size;
+      for (const ShellStrain &of_triangle : fe_space.shell_strains(positions))
+        for (const double number : of_triangle)
+          if (!(std::abs(number) < rigid_tolerance))
+            return "";
+      return no_strain;
+    }
+
+    std::string
     describe_inverted(const PoseMeasures &pose, const unsigned int n_cells)
     {
       if (pose.max_abs_volume < flat_tolerance)
@@ -135,23 +177,17 @@ namespace Exemplar
                 const bool                    may_be_rest)
   {
     if (fe_space.is_shell())
-      return ""; // may be flat, folded or turned inside out
-    const PoseMeasures pose  = measure(mesh, fe_space, positions);
-    const std::string  ratio = short_text(pose.size_ratio);
+      return describe_pose_of_shell(fe_space, positions, may_be_rest);
+    const PoseMeasures pose = measure(mesh, fe_space, positions);
     if (may_be_displacements(pose, mesh, fe_space, positions))
       return "makes flat or inverted cells, but is a pose when it is added to the rest pose: is it "
              "displacements? A pose is positions: rest + displacements.";
-    if (pose.size_ratio * max_size_ratio < 1.)
-      return "has collapsed: it has " + ratio
-             + " of the rest pose's size. If its unit of length is another one, scale it.";
-    if (pose.size_ratio > max_size_ratio)
-      return "is " + ratio
-             + " times as large as the rest pose. If its unit of length is another one, scale it.";
+    if (const std::string size = describe_size(pose.size_ratio); !size.empty())
+      return size;
     if (!pose.inverted.empty())
       return describe_inverted(pose, mesh.whole().n_cells);
     if (!may_be_rest && pose.max_strain < rigid_tolerance)
-      return "is the rest pose, moved rigidly at most: it has no strain, and pulls the body "
-             "nowhere.";
+      return no_strain;
     return "";
   }
 } // namespace Exemplar

@@ -164,6 +164,17 @@ class Refused(SceneTest):
             self.refuse(key, {key: value, "Material/Fibre direction": "1; 0; 0"})
         self.refuse("Mesh/Generator", {"Mesh/Generator": "box"})
 
+    def test_poses_without_area_or_strain(self):
+        for key in ("Examples/Pose functions", "Initial/Pose function"):
+            self.refuse("8 of 8 triangles have no area", {key: "0*x; y; z"})
+            self.refuse("triangles have no area", {key: "if(x < .3, 0, x); y; z"})
+        flat, faces = strip(1., .25, 4, 1)
+        self.write("rest.obj", obj_text(flat, faces))
+        for pose, words in (("z; y; -x", "moved rigidly"), ("1e3*x; 1e3*y; z", "times as large"), ("x; y; 0.1*x^2", "")):
+            run = self.attempt({**SHELL, "Scene": "dynamic", "Time/End": "0.01", "Time/Step": "0.01", "Examples/Pose functions": pose}, output="posed")
+            self.assertIn(words, run.stderr)
+            self.assertEqual(bool(words), bool(run.stderr), run.stderr)
+
     def test_thickness(self):
         self.refuse("Thickness", {"Material/Thickness": "0"})
         self.refuse("half of the edges", {"Material/Thickness": "0.2"})

@@ -11,9 +11,10 @@
 namespace Exemplar
 {
   /// Checks a pose by its size and its cells' volumes: collapsed, in other units, flat, mirrored,
-  /// with inverted cells, or, unless it `may_be_rest`, the rest pose moved rigidly. `positions` [m]
+  /// with inverted cells, or, unless it `may_be_rest`, the rest pose moved rigidly; a shell, which may be flat
+  /// and folded, by its size and strain alone. `positions` [m]
   /// are by degree of freedom. Returns a clause that follows the pose's name in a warning; empty if
-  /// nothing looks wrong, and for a shell. Collective.
+  /// nothing looks wrong. Collective.
   std::string
   describe_pose(const Mesh                   &mesh,
                 const FESpace                &fe_space,
