@@ -27,7 +27,7 @@ def write(name, what, x, y, nx, ny, alternating):
 
 
 def main():
-    write("cloth.obj", "a cloth of 1 m x 0.8 m", (-.5, .5), (-.4, .4), 30, 24, True)
+    write("cloth.obj", "a cloth of 1 m x 0.8 m", (-.5, .5), (-.4, .4), 28, 22, True)
     # the column beyond 0.3 m is held
     strip, x, y = "a strip of 0.3 m x 0.06 m with a column more", (-.0125, .3), (-.03, .03)
     write("strip.obj", strip, x, y, 25, 5, False)
