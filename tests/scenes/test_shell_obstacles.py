@@ -153,6 +153,7 @@ class Obstacles(ShellObstacleTest):
         slope = np.array([.2, 0, -1]) * G / sqrt(1.04)
         output = self.solve({**SHEET, "Scene": "static", "Time/Step": None, "Time/End": None, "Time/Increments": "2",
                              "Obstacles/Free": "friction", "Obstacles/thing/Friction": "0.5", "Solver/Tolerance": "1e-10",
+                             "Obstacles/Lag tolerance": "1e-9",
                              "Obstacles/thing/Shape": "plane 0 0 -0.0011  0 0 1", "Loads/Gravity": ", ".join(f"{g:.17g}" for g in slope)})
         last = read_csv(output)[-1]
         self.assertAlmostEqual(last["contact_thing_z"] / (WEIGHT / sqrt(1.04)), 1, delta=1e-6)
@@ -205,10 +206,8 @@ class Obstacles(ShellObstacleTest):
 class Starts(ShellObstacleTest):
     def test_what_is_drawn_on_an_obstacle_stands(self):
         # with its middle, as sheets are drawn, or with its side
-        sheet = [(-.5, -.5, 0.), (.5, -.5, 0.), (.5, .5, 0.), (-.5, .5, 0.)]
-        self.write("ground.obj", obj_text(sheet, [(0, 1, 2), (0, 2, 3)]))
         for shape in ("plane 0 0 0  0 0 1", f"plane 0 0 {-.5 * THICKNESS}  0 0 1", "box -1 -1 -1  1 1 0", f"box -1 -1 -1  1 1 {-.5 * THICKNESS}",
-                      "inside box -1 -1 0  1 1 1", f"sphere 0 0 {-.2 - .5 * THICKNESS} 0.2", "surface ground.obj"):
+                      "inside box -1 -1 0  1 1 1", f"sphere 0 0 {-.2 - .5 * THICKNESS} 0.2"):
             with self.subTest(shape):
                 run = self.attempt({**SHEET, "Obstacles/thing/Shape": shape, "Time/End": "0.05"})
                 self.assertEqual((run.status, run.stderr), (0, ""))
@@ -226,8 +225,19 @@ class Starts(ShellObstacleTest):
             rows = read_csv(self.solve(keys))
             self.assertLess(max(row["energy_kinetic"] for row in rows), 1e-20)
 
+    def test_the_side_of_an_open_surface_must_be_clear(self):
+        # which lies in the sheet, or beside it
+        for height, words in ((0., "The body begins inside of Obstacles/thing"), (-.5 * THICKNESS, ""), (.5 * THICKNESS, "")):
+            with self.subTest(height):
+                self.write("ground.obj", obj_text([(x, y, height) for x, y in ((-.5, -.5), (.5, -.5), (.5, .5), (-.5, .5))], [(0, 1, 2), (0, 2, 3)]))
+                run = self.attempt({**SHEET, "Obstacles/thing/Shape": "surface ground.obj", "Time/End": "0.05"})
+                self.assertEqual(run.status, 1 if words else 0, run.stderr)
+                self.assertIn(words, run.stderr)
+                if height < 0:
+                    self.assertGreater(self.places(run.output)[:, 2].min(), -1e-4)
+
     def test_what_begins_deeper_is_refused(self):
-        for shape, words in (("plane 0 0 0.002  0 0 1", "A displacement of the body by (0, 0, 0.003003) m would mend it"),
+        for shape, words in (("plane 0 0 0.002  0 0 1", "A displacement of the body by (0, 0, 0.003) m would mend it"),
                              ("sphere 0 0 -0.17 0.2", "m deep"), ("capsule -1 0 -0.17  1 0 -0.17  0.2", "m deep"),
                              ("box -1 -1 -1  1 1 0.01", "so that they do not meet"), ("box 0 0 -1  1 1 1", "so that they do not meet"),
                              ("surface tent.obj", "so that they do not meet")):
