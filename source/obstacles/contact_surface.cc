@@ -51,6 +51,17 @@ namespace Exemplar
   } // namespace
 
   ContactSurface::ContactSurface(const Mesh &mesh, const FESpace &fe_space)
+      : bounds_solid(!mesh.is_shell())
+  {
+    if (bounds_solid)
+      add_faces(mesh, fe_space);
+    else
+      add_shell(fe_space.shell());
+    find_edges_and_nodes(fe_space);
+  }
+
+  void
+  ContactSurface::add_faces(const Mesh &mesh, const FESpace &fe_space)
   {
     const auto cells = cells_of_faces(mesh);
     for (const BoundaryFace &face : mesh.get_boundary_faces())
@@ -67,6 +78,19 @@ namespace Exemplar
         triangles.push_back({ corners, cell, 0.5 * n.norm() });
       }
     }
+  }
+
+  void
+  ContactSurface::add_shell(const ShellMesh &shell)
+  {
+    for (const ShellTriangle &triangle : shell.triangles())
+      triangles.push_back({ triangle.nodes, static_cast<unsigned int>(triangles.size()),
+                            triangle.area, 0.5 * triangle.thickness });
+  }
+
+  void
+  ContactSurface::find_edges_and_nodes(const FESpace &fe_space)
+  {
     std::map<std::array<unsigned int, 2>, double> squares;
     std::map<unsigned int, double>                areas;
     for (const Triangle &triangle : triangles)
@@ -83,8 +107,14 @@ namespace Exemplar
       nodes.push_back({ node, area });
     for (const Triangle &triangle : triangles)
       for (unsigned int k = 0; k < 3; ++k)
-        edges[number_of_edge(triangle.nodes[k], triangle.nodes[(k + 1) % 3])].area
-            += triangle.area / 3.;
+      {
+        Edge &edge = edges[number_of_edge(triangle.nodes[k], triangle.nodes[(k + 1) % 3])];
+        Node &node = nodes[number_of_node(triangle.nodes[k])];
+        edge.area += triangle.area / 3.;
+        edge.offset = std::max(edge.offset, triangle.offset);
+        node.offset = std::max(node.offset, triangle.offset);
+        greatest    = std::max(greatest, triangle.offset);
+      }
   }
 
   void

@@ -174,13 +174,15 @@ namespace Exemplar
     Clearance           result{ reach, {}, {} };
     const ContactSearch search(body, obstacles, standing, number);
     ContactPair         nearest_pair{};
+    SpaceVector3        nearest_normal; // of the distance, in the obstacle's axes
     search.visit_near(positions, reach,
                       [&](const ContactPair &pair, const PairDistance &at)
                       {
                         if (at.distance < result.least)
                         {
-                          result.least = at.distance;
-                          nearest_pair = pair;
+                          result.least   = at.distance;
+                          nearest_pair   = pair;
+                          nearest_normal = at.normal;
                         }
                       });
     const bool   is_near = result.least < reach;
@@ -195,6 +197,12 @@ namespace Exemplar
         node = body.nodes[nearest_pair.of_body].node;
       result.place    = at_node(positions, node);
       result.outwards = normal_at(node, body, positions);
+      if (!body.has_inside())
+      {
+        result.is_either = nearest_normal.norm() == 0.;
+        if (!result.is_either)
+          result.outwards = -(standing.pose.rotation * nearest_normal);
+      }
     }
     const double least  = min_of_all(exchange, result.least);
     const bool   is_own = is_near && result.least == least;
@@ -217,7 +225,7 @@ namespace Exemplar
     const bool         has_node    = !body.nodes.empty();
     const SpaceVector3 of_body     = agreed(
             exchange, has_node, has_node ? at_node(positions, body.nodes[0].node) : SpaceVector3());
-    result.is_crossed = is_inside(of_obstacle, geometry.body, &exchange);
+    result.is_crossed = body.has_inside() && is_inside(of_obstacle, geometry.body, &exchange);
     if (!geometry.obstacle.empty() && (shape.is_closed || shape.half_sizes)
         && is_inside(of_body, geometry.obstacle, nullptr))
       result.is_crossed = true;

@@ -218,13 +218,19 @@ namespace Exemplar
   }
 
   double
+  rounding_of_distance(const Vector &positions)
+  {
+    // both points are rounded
+    return 4. * std::numeric_limits<double>::epsilon()
+           * max_entry(positions.begin(), positions.end());
+  }
+
+  double
   rounding_force_of(const std::vector<Gap> &gaps, const Vector &positions)
   {
     if (gaps.empty())
       return 0.;
-    // both points of a gap are rounded
-    const double of_distance = 4. * std::numeric_limits<double>::epsilon()
-                               * max_entry(positions.begin(), positions.end());
+    const double of_distance = rounding_of_distance(positions);
     // nearer the whole force is rounding, and nothing is solved
     const double        least_distance = 1e4 * of_distance;
     std::vector<double> squares(positions.size() / 3);

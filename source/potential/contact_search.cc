@@ -193,10 +193,20 @@ namespace Exemplar
   }
 
   double
+  ContactSearch::offset_of(const ContactPair &pair) const
+  {
+    if (pair.kind == PairKind::edge_edge)
+      return surface.edges[pair.of_body].offset;
+    if (pair.kind == PairKind::triangle_point)
+      return surface.triangles[pair.of_body].offset;
+    return surface.nodes[pair.of_body].offset;
+  }
+
+  double
   ContactSearch::height(const ContactPair &pair, const SpaceVector3 &place) const
   {
     const auto &half_space = standing.shape().half_spaces[pair.of_obstacle];
-    return half_space.normal * place - half_space.offset;
+    return half_space.normal * place - half_space.offset - offset_of(pair);
   }
 
   PairDistance
@@ -213,7 +223,7 @@ namespace Exemplar
     }
     at.nearest          = nearest_of(pair, x);
     const double length = at.nearest.way.norm();
-    at.distance         = length - standing.shape().radius;
+    at.distance         = length - standing.shape().radius - offset_of(pair);
     if (length > 0.)
       at.normal = at.nearest.way / length;
     return at;
@@ -270,7 +280,8 @@ namespace Exemplar
         result.by_free[k][i] = at.nearest.da[k][i];
       point += at.nearest.a[i] * x.places[i];
     }
-    result.of_obstacle = standing.pose.to_space(point - at.distance * at.normal);
+    result.of_obstacle
+        = standing.pose.to_space(point - (at.distance + offset_of(pair)) * at.normal);
     return result;
   }
 

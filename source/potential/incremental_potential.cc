@@ -217,7 +217,10 @@ namespace Exemplar
       term->add({ positions, {} }, own);
       evaluation.term_energies.push_back(own->energy - before);
     }
+    evaluation.term_energies.push_back(own->rounding_energy); // to be summed at once
     exchange.sum(evaluation.term_energies);
+    evaluation.rounding_energy = evaluation.term_energies.back();
+    evaluation.term_energies.pop_back();
     evaluation.gradient.swap(own->gradient);
     evaluation.force_scale.swap(own->force_scale);
     exchange.assemble(evaluation.gradient.begin(), 3);

@@ -8,6 +8,16 @@
 
 namespace Exemplar
 {
+  namespace
+  {
+    /// Derivative of a barrier's energy by the gap [N].
+    double
+    slope_of(const Gap &gap)
+    {
+      return Barrier{ gap.stiffness, gap.width }.slope(gap.distance);
+    }
+  } // namespace
+
   void
   TouchingTerm::attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs)
   {
@@ -47,7 +57,7 @@ namespace Exemplar
     const Gap &gap = touch.gap;
     if (coefficient == 0. || !(gap.distance > 0.) || gap.stiffness == 0.)
       return {};
-    const double force = -Barrier{ gap.stiffness, gap.width }.slope(gap.distance);
+    const double force = -slope_of(gap);
     return Rubbing{ touch.obstacle, key, gap, force, coefficient, {}, {}, {} };
   }
 
@@ -134,12 +144,17 @@ namespace Exemplar
         sums->force_scale[gap.nodes[i]] += gradient[i].norm();
       }
     };
+    // a light sheet that bends easily has little energy beside the way of these forces; solids have much
+    const double of_distance = surface.has_inside() ? 0. : rounding_of_distance(at.positions);
     visit_touches(at.positions, 1.,
                   [&](const Touch &touch)
                   {
                     sums->energy += energy_of(touch);
-                    if (touch.gap.distance > 0.) // an infinite energy has no force
-                      add_gradient(touch.gap, gradient_of(touch));
+                    if (!(touch.gap.distance > 0.)) // an infinite energy has no force
+                      return;
+                    add_gradient(touch.gap, gradient_of(touch));
+                    if (of_distance > 0.)
+                      sums->rounding_energy -= of_distance * slope_of(touch.gap);
                   });
     for (const Rubbing &rub : rubbing_step().rubbing)
     {
@@ -216,7 +231,7 @@ namespace Exemplar
                     result.least_gap = std::min(result.least_gap, gap.distance);
                     result.barrier_energy += energy_of(touch);
                     result.n_pairs += 1.;
-                    result.normal_force -= Barrier{ gap.stiffness, gap.width }.slope(gap.distance);
+                    result.normal_force -= slope_of(gap);
                   });
     return result;
   }

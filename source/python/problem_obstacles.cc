@@ -53,15 +53,15 @@ namespace Exemplar::Python
     contact_forces(const HeldProblem &held)
     {
       const Problem      &problem = held.get();
-      py::array_t<double> forces({ py::ssize_t(problem.body.fe_space.n_nodes()), py::ssize_t(3) });
+      const py::ssize_t   n = problem.body.fe_space.numbering().n_places(); // without slopes
+      py::array_t<double> forces({ n, py::ssize_t(3) });
       std::fill_n(forces.mutable_data(), forces.size(), 0.);
       for (const auto &term : problem.potential.get_terms())
         if (term->name() == "obstacles")
         {
           std::vector<NodalField> fields;
           term->append_fields(problem.state.positions, fields);
-          std::copy(fields.front().values.begin(), fields.front().values.end(),
-                    forces.mutable_data());
+          std::copy_n(fields.front().values.begin(), forces.size(), forces.mutable_data());
         }
       return read_only(std::move(forces));
     }

@@ -36,8 +36,9 @@ namespace Exemplar
         "point: the same, repeated until the residual is below Tolerance; newton: descent on "
         "the energy with its exact tangent, or as much of a convex one as it takes; quasi newton: "
         "descent with the factor, or the multigrid hierarchy, of an earlier step, for dynamic "
-        "scenes, to Step tolerance; auto: quasi newton in dynamic scenes, newton in others, fixed "
-        "point with frozen forces, for which nothing else converges.");
+        "scenes, to Step tolerance; auto: quasi newton in dynamic scenes, but those of shells that "
+        "meet obstacles, newton in others, fixed point with frozen forces, for which nothing else "
+        "converges.");
     keys.add(
         "Tolerance", tolerance,
         "Relative residual at which a step has converged: the greatest free residual "

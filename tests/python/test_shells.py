@@ -66,6 +66,22 @@ class Shells(unittest.TestCase):
         problem.let_go("right")
         problem.step()
 
+    def test_obstacles(self):
+        scene = SCENE.replace("static", "dynamic").replace("set Increments = 2", "set Step = 0.01\n  set End = 1").replace("-1e-3", "-9.81")
+        scene += "subsection Obstacles\n  set Names = floor\n  subsection floor\n    set Shape = plane 0 0 -0.01  0 0 1\n  end\nend\n"
+        problem = exemplar.Problem(scene, self.mesh)
+        for _ in range(10):
+            problem.step()
+        self.assertEqual(problem.contact_forces.shape, self.mesh[0].shape)
+        self.assertGreater(problem.obstacles["floor"]["force"][2], 0)
+        np.testing.assert_allclose(problem.contact_forces.sum(0), problem.obstacles["floor"]["force"], atol=1e-12)
+        self.assertGreater(problem.positions[:, 2].min(), -.01 + .0005)
+        # from above, so that the sheet lies between two
+        problem.add_obstacle("lid", "plane 0 0 0.01  0 0 -1", motion="0; 0; -0.1*(t-0.1)")
+        for _ in range(5):
+            problem.step()
+        self.assertLess(problem.positions[:, 2].max(), .01 - .0005)
+
     def test_what_is_refused(self):
         problem = exemplar.Problem(SCENE, self.mesh)
         problem.step()

@@ -2,7 +2,7 @@
 """Steps 1 to 3 of doc/tutorial show what their pages say."""
 
 import unittest
-from math import dist, hypot
+from math import cos, dist, hypot, pi, sin
 
 import test_prm_tutorial_dynamics  # noqa: F401, for the files that it shows
 from exemplar_runner import REPOSITORY, bent, nodes_of, read_csv, read_msh, twisted
@@ -103,6 +103,40 @@ class TutorialStatics(Tutorial):
         self.assertLess(max(row["weight_1"] for row in read_csv(still)), 0.05)
         hand = lambda run: max(read_msh(run / "final.msh").nodes.values())[2]
         self.assertLess(abs(hand(output) - hand(still)), 1e-3)
+
+    @shows("step12_strip")
+    def test_a_strip_rolls_up_against_its_weight(self):
+        ends = {}
+        for at in (.05, .5, .55, 1.):
+            output = self.scene("step12_strip", f"strip_{at}", f"Examples/Prescribed weights=1-{at}*t; {at}*t", "Time/Increments=5")
+            end = max(place for number, place in nodes_of(output / "final.msh").items() if number % 26 == 0)
+            ends[at] = end[2]
+        self.assertAlmostEqual(ends[.05], -0.1541, delta=1e-3)
+        self.assertLess(ends[.5], 0)
+        self.assertGreater(ends[.55], 0)
+        self.assertAlmostEqual(ends[1.], 0.1877, delta=1e-3)
+
+    @shows("step12_importance")
+    def test_importance_rolls_up_a_strip(self):
+        rows = self.study("step12_importance", "Time/Increments=10")
+        self.assertEqual({row["status"] for row in rows}, {"converged"})
+        light, heavy = self.of(rows, Density="1e-6"), self.of(rows, Density="1000")
+        for row in light[1:]:  # a circle's arc that turns by the importance times pi
+            turn = float(row["Examples/Importance"]) * pi
+            self.assertAlmostEqual(float(row["probe_z"]), 0.3 / turn * (1 - cos(turn)), delta=0.0015)
+            self.assertAlmostEqual(0.3 + float(row["probe_x"]), 0.3 / turn * sin(turn), delta=0.0025)
+        self.assert_grows(self.numbers(heavy, "probe_z"))
+        self.assertLess(float(heavy[1]["probe_z"]), 0)
+        self.assertGreater(float(heavy[2]["probe_z"]), 0)
+
+    @shows("step12_hinges")
+    def test_hinges_are_as_the_mesh_is(self):
+        rows = self.study("step12_hinges", shorter={"../../meshes": str(REPOSITORY / "meshes")})
+        closed_form = 1.5 * 1000 * 0.0981 * 0.3 ** 4 / (2e9 * 5e-4 ** 2)
+        for value in self.numbers(self.of(rows, Shell="plate"), "probe_z"):
+            self.assertAlmostEqual(-value / closed_form, 1, delta=0.003)
+        for value in self.numbers(self.of(rows, Shell="hinges"), "probe_z"):
+            self.assertGreater(-value / closed_form, 1.2)
 
     @shows("step2_increments")
     def test_methods_and_increments(self):

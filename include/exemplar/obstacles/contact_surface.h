@@ -20,6 +20,7 @@ namespace Exemplar
   /// their edges and nodes, each with its share of E A [N], the sum of Young's modulus times area at rest: a third of
   /// those of its triangles at a node and an edge. Of several processes each has its own faces, and edges and nodes
   /// between them in all with the shares of their own faces, so that sums over processes are those of the body.
+  /// All triangles of a shell meet obstacles, on both sides, and the body begins half of their thickness from them.
   class ContactSurface
   {
   public:
@@ -28,6 +29,20 @@ namespace Exemplar
     /// Take the shares of this material.
     void
     set_material(const Material &material);
+
+    /// Whether the triangles bound a solid, so that no obstacle may be on their inner side.
+    bool
+    has_inside() const
+    {
+      return bounds_solid;
+    }
+
+    /// Greatest of the offsets [m].
+    double
+    greatest_offset() const
+    {
+      return greatest;
+    }
 
     /// Zeros of the right sizes.
     ShareDerivatives
@@ -47,25 +62,28 @@ namespace Exemplar
     {
       std::array<unsigned int, 3> nodes; ///< outwards, counterclockwise
       unsigned int                cell;
-      double                      area;       ///< at rest [m^2]
-      double                      share = 0.; ///< [N]
+      double                      area;        ///< at rest [m^2]
+      double                      offset = 0.; ///< how far it is below what obstacles meet [m]
+      double                      share  = 0.; ///< [N]
     };
 
     /// An edge between two triangles of the surface.
     struct Edge
     {
-      std::array<unsigned int, 2> nodes;      ///< ascending
-      double                      square;     ///< of its length at rest [m^2]
-      double                      area  = 0.; ///< a third of its triangles at rest [m^2]
-      double                      share = 0.; ///< [N]
+      std::array<unsigned int, 2> nodes;       ///< ascending
+      double                      square;      ///< of its length at rest [m^2]
+      double                      area   = 0.; ///< a third of its triangles at rest [m^2]
+      double                      offset = 0.; ///< greatest one of its triangles [m]
+      double                      share  = 0.; ///< [N]
     };
 
     /// A node of the surface.
     struct Node
     {
       unsigned int node;
-      double       area  = 0.; ///< at rest [m^2]
-      double       share = 0.; ///< [N]
+      double       area   = 0.; ///< at rest [m^2]
+      double       offset = 0.; ///< greatest one of its triangles [m]
+      double       share  = 0.; ///< [N]
     };
 
     std::vector<Triangle> triangles;
@@ -87,6 +105,20 @@ namespace Exemplar
       return triangles.size() * sizeof(Triangle) + edges.size() * sizeof(Edge)
              + nodes.size() * sizeof(Node);
     }
+
+  private:
+    void
+    add_faces(const Mesh &mesh, const FESpace &fe_space);
+
+    void
+    add_shell(const ShellMesh &shell);
+
+    /// Find edges and nodes with what they have of the triangles at rest.
+    void
+    find_edges_and_nodes(const FESpace &fe_space);
+
+    bool   bounds_solid;
+    double greatest = 0.; ///< of the offsets [m]
   };
 } // namespace Exemplar
 

@@ -11,8 +11,11 @@ namespace Exemplar
   struct Clearance
   {
     double least; ///< the least signed distance of a pair [m], at most the reach that was asked for
-    SpaceVector3 place;    ///< of the body, where that is [m]
-    SpaceVector3 outwards; ///< the body's unit normal there
+    SpaceVector3 place; ///< of the body, where that is [m]
+    /// Where the obstacle is from there: the unit normal of a solid, the way from a shell. A shell that touches with its middle, so
+    /// that there is no way, has either normal.
+    SpaceVector3 outwards;
+    bool         is_either = false; ///< whether it has
     bool         is_crossed
         = false; ///< whether surfaces pass through each other, or one is within the other
   };

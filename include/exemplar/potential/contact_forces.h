@@ -49,6 +49,10 @@ namespace Exemplar
                const Vector         &displacement,
                Vector               &field);
 
+  /// The rounding of a distance between points at these positions [m].
+  double
+  rounding_of_distance(const Vector &positions);
+
   /// The greatest force at a node, at these positions, that is nothing but the rounding of distances [N].
   double
   rounding_force_of(const std::vector<Gap> &gaps, const Vector &positions);

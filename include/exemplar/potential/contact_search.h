@@ -95,7 +95,8 @@ namespace Exemplar
                   const StandingObstacle &standing,
                   unsigned int            number,
                   KeptPairs              *kept = nullptr)
-        : surface(surface), obstacles(obstacles), standing(standing), number(number), kept(kept)
+        : surface(surface), obstacles(obstacles), standing(standing), number(number), kept(kept),
+          widest(standing.shape().radius + surface.greatest_offset())
     {
     }
 
@@ -187,6 +188,10 @@ namespace Exemplar
     AxisBox
     box_of_obstacle(const ContactPair &pair) const;
 
+    /// How far beneath what meets the obstacle the part of the body is [m].
+    double
+    offset_of(const ContactPair &pair) const;
+
     /// The distance of a pair with a half space [m].
     double
     height(const ContactPair &pair, const SpaceVector3 &place) const;
@@ -211,6 +216,7 @@ namespace Exemplar
     const StandingObstacle &standing;
     const unsigned int      number;
     KeptPairs *const        kept;
+    const double            widest; ///< of the obstacle's radius and the body's offset together [m]
   };
 
   template <typename Visit>
@@ -234,7 +240,7 @@ namespace Exemplar
         box.add(x.places[i]);
         box.add(ends[x.nodes[i]]);
       }
-      if (box.widened(reach + standing.shape().radius).meets(box_of_obstacle(pair)))
+      if (box.widened(reach + widest).meets(box_of_obstacle(pair)))
         visit(pair);
     }
   }
@@ -247,7 +253,7 @@ namespace Exemplar
                         const Visit  &visit) const
   {
     const ObstacleShape &shape  = standing.shape();
-    const double         wide   = reach + shape.radius;
+    const double         wide   = reach + widest;
     const auto           box_of = [&](const auto &nodes)
     {
       AxisBox box;

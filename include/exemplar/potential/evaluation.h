@@ -29,9 +29,10 @@ namespace Exemplar
     double              energy_damping   = 0; ///< whose gradient is the stiffness damping [J]
     double              energy_inelastic = 0; ///< of it: hardening, and potentials of flow [J]
     double              energy_memory    = 0; ///< of weights that remember [J]; no part of Psi
-    double              min_det_F        = 0;
-    unsigned int        inverted_cells   = 0;
-    unsigned int        guarded_cells    = 0; ///< in which the guard of Eq. (16) acts
+    double              rounding_energy = 0; ///< of terms: what of their energy is nothing else [J]
+    double              min_det_F       = 0;
+    unsigned int        inverted_cells  = 0;
+    unsigned int        guarded_cells   = 0; ///< in which the guard of Eq. (16) acts
 
     /// What else is in Psi [J]; near an example it almost cancels the elastic energy.
     double
@@ -56,6 +57,8 @@ namespace Exemplar
     Vector              force_scale;   ///< a node, of all forces [N]
     std::vector<double> term_energies; ///< of the terms beside the cells, in their order [J]
     double              potential = 0; ///< Phi [J], Eq. (22)
+    double              rounding_energy
+        = 0; ///< what of the terms' energies is rounding, beyond that of sums [J]
   };
 } // namespace Exemplar
 

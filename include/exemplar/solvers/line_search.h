@@ -17,7 +17,8 @@ namespace Exemplar
 
     Merit(const IncrementalPotential &potential, const Evaluation &evaluation)
         : potential(evaluation.potential),
-          rounding(potential.get_body().rounding_energy(evaluation.elastic)),
+          rounding(potential.get_body().rounding_energy(evaluation.elastic)
+                   + evaluation.rounding_energy),
           max_free_gradient(potential.get_free_dofs().max_magnitude(evaluation.gradient))
     {
     }

@@ -47,11 +47,12 @@ namespace Exemplar
       std::string
       set_back()
       {
-        const Clearance first = look();
+        Clearance first = look();
         if (first.least > outside_touch * diameter && !first.is_crossed)
           return "";
-        const double least    = part_of_width * obstacles.width;
-        const double most     = inside_touch * diameter + least;
+        const double least = part_of_width * obstacles.width;
+        // the middle of a shell may lie on the obstacle, as it is drawn
+        const double most     = inside_touch * diameter + surface.greatest_offset() + least;
         const bool   is_solid = obstacle.shape().half_sizes || obstacle.shape().is_surface();
         double       by       = least - first.least;
         if (!is_solid && (first.is_crossed || by > most))
@@ -95,7 +96,7 @@ namespace Exemplar
 
       /// The least by which a box or surface must go, found by halving. Throws UserError if that is more than `most`.
       double
-      least_set_back(const Clearance &first, const double most)
+      least_set_back(Clearance &first, const double most)
       {
         constexpr unsigned int max_halvings = 40;
         const double           least        = part_of_width * obstacles.width;
@@ -106,6 +107,11 @@ namespace Exemplar
           obstacle.set_back(-by, first.outwards);
           return !now.is_crossed && now.least >= 0.999 * least;
         };
+        // nothing tells the side of an open surface on which a shell is that lies in it
+        if (first.is_either && !obstacle.shape().is_closed)
+          refuse(first);
+        if (first.is_either && !is_enough(most))
+          first.outwards *= -1.;
         if (first.outwards.norm() == 0. || !is_enough(most))
           refuse(first);
         double low = 0., high = most;
@@ -142,6 +148,8 @@ namespace Exemplar
         body.exchange().sum(numbers.data(), 3);
         for (unsigned int c = 0; c < 3; ++c)
           way[c] = numbers[c];
+        if (way.norm() == 0.)
+          way = -first.outwards;
         const double depth = -first.least;
         if (way.norm() > 0.)
           way *= 1.001 * depth / way.norm();

@@ -124,8 +124,14 @@ namespace Exemplar
           key + "Output/Space error compares tetrahedra. Set it to false." },
         { !output.functional.empty(),
           key + "gradients (Output/Functional, vjp) are not for shells yet. Remove it." },
-        { !obstacles.empty() || !contact.empty(),
-          key + "Obstacles and Contact are not for shells yet. Remove them." },
+        { !obstacles.empty() && obstacles.free == FreeBodies::weak_springs,
+          key
+              + "Obstacles/Free = weak springs is not for shells, which bend more easily than "
+                "these springs. Set it to friction, or hold more nodes." },
+        { !contact.empty(),
+          key
+              + "Contact/Bodies and Self, of pieces with each other and themselves, are not for "
+                "shells yet. Set them to false." },
     });
   }
 } // namespace Exemplar
