@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 import { Vector3 } from "./three/build/three.module.js";
 import { Connection } from "./messages.js";
+import { Motion } from "./motion.js";
 import { Panel } from "./panel.js";
 import { Pointer } from "./pointer.js";
 import { decodeSkin } from "./skin.js";
-import { View } from "./view.js";
+import { save, View } from "./view.js";
 
 const find = (id) => document.getElementById(id);
 
@@ -20,6 +21,7 @@ const look = Object.fromEntries([["fit", "home"], ["front", "front"], ["side", "
 look.ground = () => find("ground").setAttribute("aria-pressed", view.toggleGround());
 look.picture = () => view.savePicture(`exemplar-${scene ? scene.name : "live"}`);
 const panel = new Panel((message) => connection.send(message), look);
+export const motion = new Motion(find("motion"), { save, say: (text) => panel.say(text) });
 
 function showMarks() {
   view.showMarks([...handles.map(({ name, vertices }) => ({ name, kind: "handle", vertices })),
@@ -33,6 +35,7 @@ const hear = {
     poses.clear();
     view.setScene(scene);
     panel.setScene(scene);
+    motion.setScene(scene);
     fetchSkin();
   },
   state(state) {
@@ -89,6 +92,7 @@ function seeFrame(frame) {
   const isFirst = !view.hasPlace;
   view.setPlaces(frame.places, frame.inner);
   view.setColours(frame.colours);
+  view.skin && frame.number > 0 && motion.see(frame.time, view.skin.places);
   if (frame.obstacles)
     view.obstacles.setPlaces(frame.obstacles);
   panel.showLegend(frame);

@@ -5,7 +5,7 @@ import { Weights } from "./weights.js";
 import { detailsOf, round, short, speedWords } from "./words.js";
 
 const find = (id) => document.getElementById(id);
-const KEYS = { " ": "pause", ".": "step", z: "undo", r: "reset", s: "save", x: "example", e: "with", f: "fit", 1: "front", 2: "side", 3: "top", g: "ground",
+const KEYS = { " ": "pause", ".": "step", z: "undo", r: "reset", s: "save", x: "example", e: "with", f: "fit", 1: "front", 2: "side", 3: "top", g: "ground", m: "motion",
   p: "picture", "?": "help" };
 
 // Whether what has the focus wants a key for itself.

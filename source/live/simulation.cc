@@ -59,7 +59,7 @@ namespace Exemplar::Live
       binaries.push_back(bytes);
     binaries.push_back(
         skin.beside(frame_message({}, surface, problem.state.positions), problem.state.positions));
-    return { scene_text(stage, hand, surface, !skin.topology().empty(), up),
+    return { scene_text(stage, hand, surface, skin, up),
              state_text(stage, hand, surface, wish), binaries };
   }
 

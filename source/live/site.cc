@@ -94,8 +94,8 @@ namespace Exemplar::Live
     add("/style.css", "text/css", page_file("style.css"));
     for (const std::string name :
          { "app.js", "view.js", "body.js", "camera.js", "ground.js", "marks.js", "messages.js",
-           "obstacles.js", "skin.js", "latest.js", "pointer.js", "panel.js", "sliders.js",
-           "weights.js", "words.js" })
+           "motion.js", "obstacles.js", "skin.js", "latest.js", "pointer.js", "panel.js",
+           "sliders.js", "weights.js", "words.js" })
       add("/" + name, "text/javascript", page_file(name));
     for (const std::string name :
          { "build/three.module.js", "examples/jsm/controls/OrbitControls.js" })

@@ -38,6 +38,7 @@ export class Skin {
       for (; i < ends[v]; ++i)
         for (let c = 0; c < 3; ++c)
           result[3 * v + c] += values[i] * places[3 * nodes[i] + c];
+    this.places = result;
     this.drawn.setPlaces(result);
   }
 

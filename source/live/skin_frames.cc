@@ -13,6 +13,7 @@ namespace Exemplar::Live
     /// A surface and its skin.
     struct Drawn
     {
+      std::string        name; ///< empty: the body's
       const SurfaceMesh *surface;
       SurfaceSkin        skin;
     };
@@ -61,9 +62,9 @@ namespace Exemplar::Live
       own = problem.body.surface != nullptr
                 ? problem.body.surface
                 : std::make_shared<const SurfaceMesh>(read_surface(file));
-      all.push_back({ own.get(), SurfaceSkin(*own, problem.body.mesh, file) });
+      all.push_back({ "", own.get(), SurfaceSkin(*own, problem.body.mesh, file) });
       for (const CarriedSurface &carried : problem.body.carried)
-        all.push_back({ &carried.surface,
+        all.push_back({ carried.name, &carried.surface,
                         skin_of_carried(carried.surface, problem.body.mesh, carried.name) });
       return all;
     }
@@ -104,7 +105,10 @@ namespace Exemplar::Live
       return;
     Coefficients coefficients;
     for (const Drawn &drawn : all)
+    {
       coefficients.add(drawn, problem.body.mesh);
+      surfaces.push_back({ drawn.name, drawn.surface->vertices.size() });
+    }
 
     // number nodes as frames have them: those of the boundary, then the others
     const auto is_of_boundary = [&](const unsigned int node)

@@ -164,13 +164,22 @@ namespace Exemplar::Live
         names.push_back("poisson");
       return names;
     }
+
+    Json
+    surfaces_of(const SkinFrames &skin)
+    {
+      Json list = Json::array();
+      for (const SkinFrames::Surface &surface : skin.get_surfaces())
+        list.push_back({ { "name", surface.name }, { "vertices", surface.n_vertices } });
+      return list;
+    }
   } // namespace
 
   std::string
   scene_text(Stage              &stage,
              const Hand         &hand,
              const BodySurface  &surface,
-             const bool          draws_surface,
+             const SkinFrames   &skin,
              const SpaceVector3 &up)
   {
     const Problem       &problem    = stage.get_problem();
@@ -182,7 +191,9 @@ namespace Exemplar::Live
           { "step_size", stage.get_step_size() },
           { "diameter", problem.body.mesh.diameter() },
           { "up", { up[0], up[1], up[2] } },
-          { "draws_surface", draws_surface },
+          { "draws_surface", !skin.topology().empty() },
+          { "surfaces", surfaces_of(skin) },
+          { "scale", parameters.mesh.scale },
           { "floor", floor.level ? Json(*floor.level) : Json() },
           { "cells", problem.body.mesh.n_cells() },
           { "vertices", surface.nodes.size() },

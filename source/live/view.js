@@ -11,6 +11,13 @@ import { Skin } from "./skin.js";
 // Colours are those of style.css.
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
+// Let the browser save a file.
+export function save(blob, name) {
+  const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
 export class View {
   constructor(canvas) {
     this.canvas = canvas;
@@ -175,11 +182,7 @@ export class View {
     pen.fillRect(0, 0, width, height);
     this.draw();
     pen.drawImage(this.canvas, 0, 0);
-    picture.toBlob((blob) => {
-      const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: `${name}.png` });
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-    });
+    picture.toBlob((blob) => save(blob, `${name}.png`));
   }
 
   // Small pictures of other places of the vertices: [{places, inner, canvas}]; `frame` is what is shown before and after.

@@ -130,6 +130,54 @@ class LiveSurface(unittest.TestCase):
             self.assertEqual(viewer.scene["up"], [0, 0, 1])
 
     @needs_browser
+    def test_motion_is_saved_as_a_point_cache(self):
+        server = self.serve({**SCENE, "Loads/Gravity": "0, -9, 0"}, "--record", self.here / "record")
+        page = browser(downloads=self.here)
+        self.addCleanup(page.quit)
+        page.get(f"http://{server.host}/?token={server.token}")
+        button = page.find_element("id", "motion")
+        wait(lambda: button.is_displayed() and "real time" in page.find_element("id", "strip").text)
+        self.assertEqual(button.text, "Record motion")
+        button.click()
+        self.assertEqual(button.text, "Save motion")
+
+        def moments():
+            return page.execute_async_script("const done = arguments[0]; import('./app.js').then(({ motion }) => "
+                                             "done(motion.moments.map(({ time }) => time)));")
+        wait(lambda: len(moments()) > 5 and moments()[-1] - moments()[0] > .4)
+        page.find_element("id", "pause").click()
+        wait(lambda: "Go on" in page.find_element("id", "pause").text)
+        times = moments()
+        button.click()
+        file = self.here / "scene.pc2"
+        wait(file.exists)
+        self.assertEqual(complaints(page), [])
+        page.get("about:blank")
+        server.__exit__()
+        self.assertEqual(call_program(self.here / "record/scene.prm", "--set", "Output/Formats=obj", "--set", "Output/Every=1",
+                                      "--set", f"Output/Directory={self.here / 'played'}").returncode, 0)
+        rest, data = vertices_of(Path(SCENE["Mesh/File"])), file.read_bytes()
+        _, version, n, start, rate, n_samples = struct.unpack_from("<12siiffi", data)
+        self.assertEqual((version, n, start, rate, n_samples), (1, len(rest), 0., 1., 1 + int((times[-1] - times[0]) * 24 + 1e-6)))
+        self.assertEqual(len(data), 32 + 12 * n * n_samples)
+        frames = {}
+
+        def place(step, v):
+            if step not in frames:
+                frames[step] = vertices_of(self.here / f"played/frame_{step:04}.obj")
+            return frames[step][v]
+        size = max(max(x) - min(x) for x in zip(*rest))
+        for k in range(n_samples):
+            values = struct.unpack_from(f"<{3 * n}f", data, 32 + 12 * n * k)
+            at = 60. * (times[0] + k / 24.)
+            step, part = int(at), at - int(at)
+            for v in range(0, n, 97):
+                wanted = [a + part * (b - a) for a, b in zip(place(step, v), place(step + (part > 1e-6), v))]
+                self.assertLess(max(abs(a - b) for a, b in zip(values[3 * v:3 * v + 3], wanted)), 5e-3 * size)
+        fallen = struct.unpack_from("<3f", data, 32 + 12 * n * (n_samples - 1))[1] - struct.unpack_from("<3f", data, 32)[1]
+        self.assertLess(fallen, -.1 * size)
+
+    @needs_browser
     def test_it_is_drawn(self):
         server = self.serve({**SCENE, "Loads/Gravity": "0, -1, 0", "Handles/Names": "head",
                              "Handles/head/Select": "box -9 -9 -9  -1.2 9 9"})

@@ -5,6 +5,7 @@
 #include <exemplar/live/surface_frames.h>
 
 #include <string>
+#include <vector>
 
 namespace Exemplar::Live
 {
@@ -25,13 +26,28 @@ namespace Exemplar::Live
       return bytes_of_topology;
     }
 
+    /// A surface that is drawn: its vertices are those of its file, in that order.
+    struct Surface
+    {
+      std::string name; ///< empty: that of the body
+      std::size_t n_vertices;
+    };
+
+    /// Those of topology(), in its order.
+    const std::vector<Surface> &
+    get_surfaces() const
+    {
+      return surfaces;
+    }
+
     /// A frame, and the places of the further nodes that the surfaces hang on.
     Bytes
     beside(const Bytes &frame, const Vector &positions) const;
 
   private:
-    std::string bytes_of_topology;
-    BodySurface inner; ///< nodes alone
+    std::string          bytes_of_topology;
+    std::vector<Surface> surfaces;
+    BodySurface          inner; ///< nodes alone
   };
 } // namespace Exemplar::Live
 

@@ -4,6 +4,7 @@
 
 #include <exemplar/live/hand.h>
 #include <exemplar/live/pace.h>
+#include <exemplar/live/skin_frames.h>
 #include <exemplar/live/stage.h>
 
 #include <string>
@@ -19,12 +20,12 @@ namespace Exemplar::Live
     bool        is_paused = false;
   };
 
-  /// The constant data of a scene, sent once. `draws_surface`: whether SkinFrames has what is drawn.
+  /// The constant data of a scene, sent once.
   std::string
   scene_text(Stage              &stage,
              const Hand         &hand,
              const BodySurface  &surface,
-             bool                draws_surface,
+             const SkinFrames   &skin,
              const SpaceVector3 &up);
 
   /// Settings, held parts and choices: all that a page shows beside the body's positions.
