@@ -32,7 +32,7 @@ GREY = """
     return [n, sum / n];"""
 
 
-class LiveObstacles(unittest.TestCase):
+class Base(unittest.TestCase):
     def setUp(self):
         directory = tempfile.TemporaryDirectory()
         self.addCleanup(directory.cleanup)
@@ -50,6 +50,23 @@ class LiveObstacles(unittest.TestCase):
             page.save_screenshot(str(Path(os.environ["SCREENSHOTS"]) / f"{name}.png"))
         self.assertEqual(complaints(page), [])
 
+    def page_of_run(self, *settings):
+        """The page of a run of the scene, in a browser."""
+        words = [word for setting in settings for word in ("--set", setting)]
+        for call in ([self.here / "scene.prm", *words, "--output", self.here / "run", "--quiet"],
+                     ["export", self.here / "run", "--html", self.here / "run.html"]):
+            done = call_program(*call)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        page = browser()
+        page.get(f"file://{self.here}/run.html")
+        return page
+
+    def show(self, page, frame, time):
+        page.execute_script("const bar = document.getElementById('scrub'); bar.value = arguments[0]; bar.oninput({ target: bar });", frame)
+        wait(lambda: page.find_element("id", "time").text == f"t = {time:.2f} s")
+
+
+class LiveObstacles(Base):
     def test_what_moves_goes_with_the_frames(self):
         with Viewer(self.serve("--floor", "-3")) as viewer:
             self.assertAlmostEqual(viewer.scene["floor"], -3, delta=1e-12)
@@ -101,20 +118,50 @@ class LiveObstacles(unittest.TestCase):
 
     @needs_browser
     def test_a_page_of_a_run_shows_them_in_motion(self):
-        done = call_program(self.here / "scene.prm", "--set", "Time/Step=0.02", "--output", self.here / "run", "--quiet")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        done = call_program("export", self.here / "run", "--html", self.here / "run.html")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        page = browser()
-        page.get(f"file://{self.here}/run.html")
+        page = self.page_of_run("Time/Step=0.02")
         seen = []
         for frame in (0, 49):
-            page.execute_script("const bar = document.getElementById('scrub'); bar.value = arguments[0]; bar.oninput({ target: bar });", frame)
-            wait(lambda: page.find_element("id", "time").text == f"t = {0.02 * frame:.2f} s")
+            self.show(page, frame, 0.02 * frame)
             wait(lambda: page.execute_script(GREY)[0] > 20)
             seen.append(page.execute_script(GREY)[1])
         self.assertLess(seen[1], seen[0] - 1)
         self.look(page, "export_obstacles")
+
+
+class Sheets(Base):
+    """A shell that falls on a ball and a floor."""
+
+    def setUp(self):
+        super().setUp()
+        n = 8
+        at = [(.5 * i / n - .25, .5 * j / n - .25) for j in range(n + 1) for i in range(n + 1)]
+        corners = [j * (n + 1) + i + 1 for j in range(n) for i in range(n)]
+        (self.here / "sheet.obj").write_text("".join(f"v {x} {y} 0\n" for x, y in at)
+                                             + "".join(f"f {a} {a + 1} {a + n + 2} {a + n + 1}\n" for a in corners))
+        self.sheet = {key: value for key, value in SCENE.items() if not key.startswith(("Mesh", "Obstacles", "Model"))}
+        self.sheet.update({"Mesh/Kind": "shell", "Mesh/File": str(self.here / "sheet.obj"), "Material/Thickness": "2e-3",
+                           "Material/Density": "300", "Material/Young's modulus": "1e6", "Loads/Gravity": "0, 0, -9.81",
+                           "Obstacles/Names": "ball", "Obstacles/ball/Shape": "sphere 0 0 -0.13 0.1", "Obstacles/ball/Friction": "0.5"})
+        (self.here / "scene.prm").write_text(prm(self.sheet))
+
+    def test_it_lies_on_the_ball_and_the_floor(self):
+        with Viewer(self.serve("--floor", "-0.15")) as viewer:
+            self.assertEqual((viewer.scene["floor"], len(viewer.obstacles)), (-.15, 1))
+            viewer.wait_steps(60)
+            places = viewer.frames[-1].places
+            self.assertGreater(min(z for _, _, z in places), -.15)
+            self.assertLess(min(z for _, _, z in places), -.04)
+            self.assertGreater(min(x * x + y * y + (z + .13) ** 2 for x, y, z in places), .1 ** 2)
+
+    @needs_browser
+    def test_the_page_of_a_run_shows_both(self):
+        page = self.page_of_run("Time/End=0.2", "Obstacles/ball/Shape=box -0.1 -0.6 -0.2  0.1 0.6 -0.03")
+        orange = GREY.replace("Math.abs(all[i] - all[i + 2]) < 40", "all[i] - all[i + 2] > 60")
+        for frame in (0, 20):
+            self.show(page, frame, 0.01 * frame)
+            wait(lambda: page.execute_script(orange)[0] > 20)
+        wait(lambda: page.execute_script(GREY)[0] > 5)
+        self.look(page, "export_sheet")
 
 
 if __name__ == "__main__":

@@ -157,7 +157,8 @@ class Obstacles(ShellObstacleTest):
                              "Obstacles/thing/Shape": "plane 0 0 -0.0011  0 0 1", "Loads/Gravity": ", ".join(f"{g:.17g}" for g in slope)})
         last = read_csv(output)[-1]
         self.assertAlmostEqual(last["contact_thing_z"] / (WEIGHT / sqrt(1.04)), 1, delta=1e-6)
-        self.assertAlmostEqual(last["contact_thing_x"] / (-.2 * WEIGHT / sqrt(1.04)), 1, delta=1e-6)
+        # a spring of 1e-6 E times the diameter is left, which pulls while friction creeps
+        self.assertAlmostEqual(last["contact_thing_x"] / (-.2 * WEIGHT / sqrt(1.04)), 1, delta=2e-4)
 
     def test_a_sheet_on_a_slope_slides_as_it_should(self):
         tangent, friction = .5, .2
