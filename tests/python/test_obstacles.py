@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Obstacles that are added between steps: as if the scene had them, on what falls and on what stands, and what is refused."""
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -24,6 +25,22 @@ class Obstacles(unittest.TestCase):
         self.assertGreater(theirs.obstacles["floor"]["force"][2], 1)
         self.assertLess(np.abs(mine.positions - theirs.positions).max(), 1e-12)
         self.assertAlmostEqual(mine.obstacles["floor"]["heat"], theirs.obstacles["floor"]["heat"], places=12)
+
+    def test_forces_of_pieces_on_each_other(self):
+        problem = exemplar.Problem(Path(__file__).resolve().parents[2] / "prm/contact/two_bars.prm",
+                                   {"Solver/Step tolerance": 1e-10})
+        upper = problem.rest_positions[:, 2] > 0.11
+        self.assertEqual(abs(problem.contact_forces).max(), 0)
+        problem.goto(0.19)
+        before = (problem.mass @ problem.velocities)[upper].sum(0)
+        problem.step()
+        forces, momentum = problem.contact_forces, (problem.mass @ problem.velocities)[upper].sum(0)
+        weight = problem.mass.sum(1)[upper].sum() * 9.81
+        self.assertGreater(problem.statistics["body_pairs"], 0)
+        self.assertLess(0, problem.statistics["least_body_gap"])
+        self.assertGreater(forces[upper].sum(0)[2], 0.1 * weight)
+        np.testing.assert_allclose(forces[upper].sum(0), (momentum - before) / 0.01 + [0, 0, weight], atol=1e-5 * weight)
+        np.testing.assert_allclose(forces.sum(0), 0, atol=1e-9 * weight)
 
     def test_one_more_goes_beside_those_that_are_there(self):
         problem = exemplar.Problem({**BAR, "Obstacles": {"floor": {"Shape": FLOOR}}})
