@@ -61,7 +61,7 @@ def shades(places, triangles, light):
     return .35 + .65 * np.clip(np.where(is_smooth[:, :, None], smooth, normals[:, None]) @ light, 0, 1)
 
 
-def panel(places, triangles, colours, look, middle, width):
+def panel(places, triangles, colours, look, middle, width, size=(WIDTH, HEIGHT)):
     """The surface with what is in front hiding what is behind, pixel by pixel."""
     look = np.array(look) / np.linalg.norm(look)
     right = np.cross(look, [0, 0, 1])
@@ -70,7 +70,8 @@ def panel(places, triangles, colours, look, middle, width):
     light = .6 * up - .7 * look - .35 * right
     shade = shades(places, triangles, light / np.linalg.norm(light))
     x = places - np.array(middle)
-    unit, n_x, n_y = WIDTH * FINE / width, WIDTH * FINE, HEIGHT * FINE
+    n_x, n_y = size[0] * FINE, size[1] * FINE
+    unit = n_x / width
     seen = np.stack([n_x / 2 + unit * x @ right, n_y / 2 - unit * x @ up, x @ look], -1)
     depth, picture = np.full((n_y, n_x), np.inf), np.full((n_y, n_x, 3), 255.)
     for corners, light_of, colour in zip(seen[triangles], shade, colours):
@@ -87,7 +88,7 @@ def panel(places, triangles, colours, look, middle, width):
         nearer = (share >= -1e-9).all(-1) & (far < depth[y0:y1, x0:x1])
         depth[y0:y1, x0:x1][nearer] = far[nearer]
         picture[y0:y1, x0:x1][nearer] = (share @ light_of)[nearer][:, None] * colour
-    return Image.fromarray(picture.astype(np.uint8)).resize((WIDTH, HEIGHT), Image.LANCZOS)
+    return Image.fromarray(picture.astype(np.uint8)).resize(size, Image.LANCZOS)
 
 
 def main():
