@@ -92,7 +92,7 @@ class TutorialStatics(Tutorial):
 
     @shows("step11_arm")
     def test_muscles_flex_and_extend_the_arm(self):
-        output = self.scene("step11_arm", "arm")
+        output = self.scene("step11_arm", "arm", "Output/Every=5", "Output/Formats=vtu")
         rows = read_csv(output)
         flexed, extended = ([row[f"weight_{i}"] for row in rows] for i in (1, 2))
         for weights in (flexed[:6], extended[10:16]):
