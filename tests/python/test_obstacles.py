@@ -27,15 +27,21 @@ class Obstacles(unittest.TestCase):
         self.assertAlmostEqual(mine.obstacles["floor"]["heat"], theirs.obstacles["floor"]["heat"], places=12)
 
     def test_forces_of_pieces_on_each_other(self):
-        problem = exemplar.Problem(Path(__file__).resolve().parents[2] / "prm/contact/two_bars.prm",
-                                   {"Solver/Step tolerance": 1e-10})
+        problem = exemplar.Problem({**BAR, "Mesh": {"File": Path(__file__).resolve().parents[2] / "meshes/two_bars.msh"},
+                                    "Handles": {"left": {"Select": "box -0.01 -1 -0.1  0.01 1 0.1"}, "right": {"Select": "box 1.99 -1 -0.1  2.01 1 0.1"}},
+                                    "Material": {"Young's modulus": 1e7, "Poisson's ratio": 0.3},
+                                    "Contact": {"Bodies": True, "Friction": 0.3}, "Time": {"Step": 0.01, "End": 1}})
         upper = problem.rest_positions[:, 2] > 0.11
         self.assertEqual(abs(problem.contact_forces).max(), 0)
         problem.goto(0.19)
-        before = (problem.mass @ problem.velocities)[upper].sum(0)
+        masses = problem.mass
+
+        def momentum_of(nodes):
+            return (masses @ problem.velocities.ravel()).reshape(-1, 3)[nodes].sum(0)
+        before = momentum_of(upper)
         problem.step()
-        forces, momentum = problem.contact_forces, (problem.mass @ problem.velocities)[upper].sum(0)
-        weight = problem.mass.sum(1)[upper].sum() * 9.81
+        forces, momentum = problem.contact_forces, momentum_of(upper)
+        weight = np.asarray(masses.sum(1)).reshape(-1, 3)[upper, 2].sum() * 9.81
         self.assertGreater(problem.statistics["body_pairs"], 0)
         self.assertLess(0, problem.statistics["least_body_gap"])
         self.assertGreater(forces[upper].sum(0)[2], 0.1 * weight)
