@@ -107,4 +107,5 @@ def main():
                      quality=70, method=4)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -70,6 +70,7 @@ export class Panel {
     document.body.classList.remove("waits");
     const colour = find("colour");
     [...colour.options].slice(3).forEach((option) => option.remove());
+    if (scene.has_contact) colour.add(new Option("forces of contact", "contact"));
     scene.examples.forEach((name, i) => colour.add(new Option(`distance to ${name}`, `pose ${i}`)));
   }
 

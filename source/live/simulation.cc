@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/live/simulation.h>
+#include <exemplar/run/problem/obstacle_start.h>
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <system_error>
 
@@ -15,6 +17,16 @@ namespace Exemplar::Live
     name_of_pose(const unsigned int pose)
     {
       return fmt::format("pose {}", pose);
+    }
+
+    /// Lengths of the vectors of a field of nodes at the vertices.
+    std::vector<double>
+    lengths(const Vector &field, const BodySurface &surface)
+    {
+      std::vector<double> result;
+      for (const unsigned int node : surface.nodes)
+        result.push_back(std::hypot(field[3 * node], field[3 * node + 1], field[3 * node + 2]));
+      return result;
     }
 
     /// Distances of the vertices from a pose that is translated to the mean place of the body.
@@ -259,7 +271,8 @@ namespace Exemplar::Live
   void
   Simulation::choose_colour(const std::string &name)
   {
-    bool is_known = name == "none" || name == "energy" || name == "det F";
+    bool is_known = name == "none" || name == "energy" || name == "det F"
+                    || (name == "contact" && !touching_terms(stage.get_problem()).empty());
     for (unsigned int i = 0; i < stage.get_problem().examples.poses.size(); ++i)
       is_known = is_known || name == name_of_pose(i);
     if (!is_known)
@@ -278,6 +291,8 @@ namespace Exemplar::Live
       return at_vertices(wish.colour == "energy" ? cells.strain_energy_density : cells.det_F,
                          problem.body.mesh, surface);
     }
+    if (wish.colour == "contact")
+      return lengths(contact_forces(problem), surface);
     for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)
       if (wish.colour == name_of_pose(i))
         return distances(problem.state.positions, problem.examples.poses.pose(i), surface);

@@ -3,6 +3,7 @@
 #include <exemplar/live/told.h>
 #include <exemplar/potential/fibre_tension_term.h>
 #include <exemplar/run/output/weight_names.h>
+#include <exemplar/run/problem/obstacle_start.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -213,6 +214,7 @@ namespace Exemplar::Live
           { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } },
           { "tolerance", parameters.solver.tolerance },
           { "saves_poses", stage.get_recording() != nullptr },
+          { "has_contact", !touching_terms(problem).empty() },
           { "takes_examples", parameters.examples.importance > 0.
                                   && parameters.examples.weights != WeightRule::prescribed } });
   }

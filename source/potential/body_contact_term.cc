@@ -206,14 +206,7 @@ namespace Exemplar
   void
   BodyContactTerm::append_fields(const Vector &positions, std::vector<NodalField> &fields) const
   {
-    NodalField force{ "body_contact_force", Vector(positions.size()) };
-    visit_gradients(positions,
-                    [&](unsigned int, const Gap &gap, const ContactGradient &gradient)
-                    {
-                      for (unsigned int i = 0; i < gap.n_nodes; ++i)
-                        add_to(force.values, gap.nodes[i], -gradient[i]);
-                    });
-    fields.push_back(std::move(force));
+    fields.push_back({ "body_contact_force", forces(positions) });
   }
 
   void

@@ -315,21 +315,14 @@ namespace Exemplar
   void
   ObstacleTerm::append_fields(const Vector &positions, std::vector<NodalField> &fields) const
   {
-    NodalField force{ "contact_force", Vector(positions.size()) };
     NodalField pressure{ "contact_pressure", Vector(positions.size() / 3), 1 };
-    visit_gradients(positions,
-                    [&](unsigned int, const Gap &gap, const ContactGradient &gradient)
-                    {
-                      for (unsigned int i = 0; i < gap.n_nodes; ++i)
-                        add_to(force.values, gap.nodes[i], -gradient[i]);
-                    });
     for (const Contact &contact : contacts(positions))
       if (contact.gap.distance > 0.)
         for (unsigned int i = 0; i < contact.gap.n_nodes; ++i)
           pressure.values[contact.gap.nodes[i]]
               -= Barrier{ contact.gap.stiffness, contact.gap.width }.slope(contact.gap.distance)
                  * contact.gap.coefficients[i] / node_areas[contact.gap.nodes[i]];
-    fields.push_back(std::move(force));
+    fields.push_back({ "contact_force", forces(positions) });
     fields.push_back(std::move(pressure));
   }
 

@@ -133,6 +133,19 @@ namespace Exemplar
       visit(at.obstacle, at.gap, gradient_of_friction(at, slip(at, positions)));
   }
 
+  Vector
+  TouchingTerm::forces(const Vector &positions) const
+  {
+    Vector forces(positions.size());
+    visit_gradients(positions,
+                    [&](unsigned int, const Gap &gap, const ContactGradient &gradient)
+                    {
+                      for (unsigned int i = 0; i < gap.n_nodes; ++i)
+                        add_to(forces, gap.nodes[i], -gradient[i]);
+                    });
+    return forces;
+  }
+
   void
   TouchingTerm::add(const TermPoint &at, ElasticSums &sums)
   {

@@ -55,14 +55,8 @@ namespace Exemplar::Python
       const Problem      &problem = held.get();
       const py::ssize_t   n = problem.body.fe_space.numbering().n_places(); // without slopes
       py::array_t<double> forces({ n, py::ssize_t(3) });
-      std::fill_n(forces.mutable_data(), forces.size(), 0.);
-      for (const auto &term : problem.potential.get_terms())
-        if (term->name() == "obstacles")
-        {
-          std::vector<NodalField> fields;
-          term->append_fields(problem.state.positions, fields);
-          std::copy_n(fields.front().values.begin(), forces.size(), forces.mutable_data());
-        }
+      const Vector        values = Exemplar::contact_forces(problem);
+      std::copy_n(values.begin(), forces.size(), forces.mutable_data());
       return read_only(std::move(forces));
     }
     /// Vertices and triangles of a tuple of arrays.
@@ -151,8 +145,9 @@ namespace Exemplar::Python
                            "add_obstacle is called as add_obstacle(name, shape, motion=..., "
                            "turn=..., friction=...).");
     problem.def_property_readonly("contact_forces", &contact_forces,
-                                  "Forces (n, 3) [N] of all obstacles on the nodes, a read-only "
-                                  "copy; with Element = P2 n counts the\n"
-                                  "nodes in the middles of edges, too.");
+                                  "Forces (n, 3) [N] on the nodes by all obstacles and, with "
+                                  "Contact/Self or Bodies, by the body itself,\n"
+                                  "a read-only copy; with Element = P2 n counts the nodes in the "
+                                  "middles of edges, too.");
   }
 } // namespace Exemplar::Python

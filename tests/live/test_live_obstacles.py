@@ -98,6 +98,27 @@ class LiveObstacles(Base):
             with Viewer(self.serve()) as viewer:
                 self.assertEqual((viewer.scene["floor"], len(viewer.obstacles)), (level, 0 if level else 1))
 
+    def test_forces_of_contact_are_colours(self):
+        bars = Path(__file__).resolve().parents[2] / "prm/contact/two_bars.prm"
+        server = Server(bars, log=self.here / "bars.txt")
+        self.addCleanup(server.__exit__)
+        with Viewer(server) as viewer:
+            self.assertTrue(viewer.scene["has_contact"])
+            viewer.send(type="colour", name="contact")
+            viewer.until(lambda: viewer.frames[-1].has_colours and viewer.frames[-1].high > 10)  # the one lies on the other
+            frame = viewer.frames[-1]
+            pushed = [place for place, byte in zip(frame.places, frame.colours) if byte > 25]
+            self.assertGreater(len(pushed), 1)
+            self.assertLess(len(pushed), len(frame.places) / 4)
+            self.assertLess(max(abs(x - 1) for x, _, _ in pushed), 0.3)  # where they cross
+        (self.here / "scene.prm").write_text(prm({key: value for key, value in SCENE.items() if "Obstacles" not in key}))
+        with Viewer(self.serve()) as viewer:
+            self.assertFalse(viewer.scene["has_contact"])
+            viewer.send(type="colour", name="contact")
+            self.assertIn("no such colour", viewer.wait_for("refused")["text"])
+        with Viewer(self.serve("--floor", "-3")) as viewer:
+            self.assertTrue(viewer.scene["has_contact"])
+
     @needs_browser
     def test_the_page_shows_them(self):
         # it goes to and fro for ever, as a browser without a graphics card may show its first picture late

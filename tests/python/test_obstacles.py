@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Obstacles that are added between steps: as if the scene had them, on what falls and on what stands, and what is refused."""
 import unittest
+from pathlib import Path
 
 import numpy as np
 
@@ -24,6 +25,28 @@ class Obstacles(unittest.TestCase):
         self.assertGreater(theirs.obstacles["floor"]["force"][2], 1)
         self.assertLess(np.abs(mine.positions - theirs.positions).max(), 1e-12)
         self.assertAlmostEqual(mine.obstacles["floor"]["heat"], theirs.obstacles["floor"]["heat"], places=12)
+
+    def test_forces_of_pieces_on_each_other(self):
+        problem = exemplar.Problem({**BAR, "Mesh": {"File": Path(__file__).resolve().parents[2] / "meshes/two_bars.msh"},
+                                    "Handles": {"left": {"Select": "box -0.01 -1 -0.1  0.01 1 0.1"}, "right": {"Select": "box 1.99 -1 -0.1  2.01 1 0.1"}},
+                                    "Material": {"Young's modulus": 1e7, "Poisson's ratio": 0.3},
+                                    "Contact": {"Bodies": True, "Friction": 0.3}, "Time": {"Step": 0.01, "End": 1}})
+        upper = problem.rest_positions[:, 2] > 0.11
+        self.assertEqual(abs(problem.contact_forces).max(), 0)
+        problem.goto(0.19)
+        masses = problem.mass
+
+        def momentum_of(nodes):
+            return (masses @ problem.velocities.ravel()).reshape(-1, 3)[nodes].sum(0)
+        before = momentum_of(upper)
+        problem.step()
+        forces, momentum = problem.contact_forces, momentum_of(upper)
+        weight = np.asarray(masses.sum(1)).reshape(-1, 3)[upper, 2].sum() * 9.81
+        self.assertGreater(problem.statistics["body_pairs"], 0)
+        self.assertLess(0, problem.statistics["least_body_gap"])
+        self.assertGreater(forces[upper].sum(0)[2], 0.1 * weight)
+        np.testing.assert_allclose(forces[upper].sum(0), (momentum - before) / 0.01 + [0, 0, weight], atol=1e-5 * weight)
+        np.testing.assert_allclose(forces.sum(0), 0, atol=1e-9 * weight)
 
     def test_one_more_goes_beside_those_that_are_there(self):
         problem = exemplar.Problem({**BAR, "Obstacles": {"floor": {"Shape": FLOOR}}})

@@ -58,7 +58,9 @@ OF_ONE_PROCESS = {
 }
 
 # Scenes of prm/ with something that several processes refuse, and words of the refusal.
-OF_ONE_PROCESS_ALONE = {"contact/two_bars.prm": "not for several processes", "shells/leaf.prm": "not for several processes"}
+OF_ONE_PROCESS_ALONE = {f"{name}.prm": "not for several processes"
+                        for name in ("contact/two_bars", "contact/cat_washes", "contact/folded_plate", "contact/two_cats", "contact/eye_in_socket",
+                                     "shells/leaf")}
 
 # Their bodies collapse on the way and may come out of it in several shapes, so that messages alone are compared.
 AMBIGUOUS = {"a turn along straight lines"}

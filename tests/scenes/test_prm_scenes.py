@@ -8,7 +8,10 @@ the others, which are in a class of their own.
 
 import unittest
 
-from exemplar_runner import REPOSITORY, SceneTest, bent, distance, greatest_distance, nodes_of, read_csv, twisted, \
+import numpy as np
+from contact_reference import boundary
+from exact_crossings import crossings
+from exemplar_runner import REPOSITORY, SceneTest, bent, distance, greatest_distance, nodes_of, read_csv, read_vtu, twisted, \
     without_what_is_meant
 
 PAPER = REPOSITORY / "prm/paper"
@@ -42,6 +45,17 @@ class PrmTest(SceneTest):
         ends = [nodes_of(output / "final.msh") for output in (examples, plain)]
         self.assertGreater(greatest_distance(*ends), 0.3)
 
+    def check_bodies_meet(self, scene, every):
+        """They do, and in no frame an edge of the surface passes through a triangle."""
+        output = self.run_file(REPOSITORY / f"prm/contact/{scene}.prm", scene, f"Output/Every={every}", "Output/Formats=vtu")
+        self.assertGreater(max(row["body_pairs"] for row in read_csv(output)), 20)
+        frames = sorted(output.glob("frame_*[0-9].vtu"))[1:]
+        self.assertGreater(len(frames), 2)
+        for file in frames:
+            arrays, n, _ = read_vtu(file)
+            triangles = boundary(np.array(arrays["Cells", "connectivity"]).reshape(-1, 4))
+            self.assertEqual(crossings(np.array(arrays["Points", "Points"]).reshape(n, 3), triangles), [], file.name)
+
 
 class PrmScenes(PrmTest):
     def test_every_scene_is_valid_and_says_what_to_expect(self):
@@ -70,6 +84,9 @@ class PrmScenes(PrmTest):
                 self.assertGreater(len(errors), 2000)
                 self.assertLess(max(errors), 1e-6)
 
+    def test_two_cats_run_into_each_other(self):
+        self.check_bodies_meet("two_cats", 10)
+
     def test_examples_change_what_the_first_drag_does(self):
         self.check_drag(PAPER / f"{FIRST_DRAG}.prm", "Time/End=1")  # when the paw has come to rest
 
@@ -80,6 +97,11 @@ class OtherPrmScenes(PrmTest):
             if scene.stem != FIRST_POSE:
                 with self.subTest(scene.stem):
                     self.check_pose(scene)
+
+    def test_bodies_meet(self):
+        for scene, every in (("cat_washes", 28), ("folded_plate", 35), ("eye_in_socket", 25)):
+            with self.subTest(scene):
+                self.check_bodies_meet(scene, every)
 
     def test_examples_change_what_a_drag_does(self):
         for scene in files("prm/paper/fig[23]*.prm"):

@@ -53,6 +53,10 @@ namespace Exemplar
     double
     rounding_force(const Vector &positions) const override;
 
+    /// Of barriers and friction on the nodes [N].
+    Vector
+    forces(const Vector &positions) const;
+
     static constexpr unsigned int max_renewals = 20; ///< of what rubs in a step
 
     /// What of friction belongs to the step that has begun.

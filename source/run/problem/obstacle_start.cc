@@ -225,4 +225,24 @@ namespace Exemplar
           return found;
     return nullptr;
   }
+
+  std::vector<const TouchingTerm *>
+  touching_terms(const Problem &problem)
+  {
+    std::vector<const TouchingTerm *> found;
+    if (problem.actions.obstacles != nullptr || problem.actions.body_contacts != nullptr)
+      for (const auto &term : problem.potential.get_terms())
+        if (auto *const touching = dynamic_cast<const TouchingTerm *>(term.get()))
+          found.push_back(touching);
+    return found;
+  }
+
+  Vector
+  contact_forces(const Problem &problem)
+  {
+    Vector sum(problem.state.positions.size());
+    for (const TouchingTerm *const term : touching_terms(problem))
+      sum += term->forces(problem.state.positions);
+    return sum;
+  }
 } // namespace Exemplar

@@ -167,8 +167,8 @@ namespace Exemplar
         return {};
       return fmt::format(
           "This body is heavier than it is stiff (rho g L / E = {}): with coupled masses the nodes "
-          "beside a handle at "
-          "first fall further than freely, by a third. Set Material/Mass matrix = lumped.",
+          "beside a handle at first fall further than freely, by a quarter and some by a half. Set "
+          "Material/Mass matrix = lumped.",
           short_text(ratio));
     }
 

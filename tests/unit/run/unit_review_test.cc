@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 namespace Exemplar::Testing
 {
   namespace
@@ -57,6 +59,56 @@ namespace Exemplar::Testing
     {
       const Scene scene(heavy_bar("boundary 1", "0, 0, -1e6", "dynamic"));
       EXPECT_NEAR(estimate_weight(scene.problem, measure(scene.problem.body)).sag, 50., 1e-9);
+    }
+
+    /// A bar of jelly as heavy as lead, of which one step is made, in which nothing but masses matters.
+    std::string
+    falling_bar(const double density, const std::string &mass_matrix)
+    {
+      return "set Scene = dynamic\nsubsection Mesh\n set Generator = box\n set Box size = 4, 1, 1\n"
+             " set Box cells = 12, 3, 3\nend\n"
+             "subsection Material\n set Young's modulus = 500\n set Poisson's ratio = 0.3\n"
+             " set Density = "
+             + std::to_string(density) + "\n set Mass matrix = " + mass_matrix
+             + "\nend\nsubsection Handles\n set Names = a\n subsection a\n  set Select = boundary "
+               "1\n"
+               " end\nend\nsubsection Loads\n set Gravity = 0, 0, -10\nend\n"
+               "subsection Time\n set Step = 1e-3\n set End = 1e-3\nend\n";
+    }
+
+    bool
+    warns_of_coupled_masses(const Scene &scene)
+    {
+      for (const std::string &warning : unit_warnings(scene.problem))
+        if (warning.find("heavier than it is stiff") != std::string::npos)
+          return true;
+      return false;
+    }
+
+    TEST(UnitReview, CoupledMassesThatFallFurtherThanFreelyAreNamed)
+    {
+      EXPECT_TRUE(warns_of_coupled_masses(Scene(falling_bar(1e5, "consistent"))));
+      EXPECT_TRUE(warns_of_coupled_masses(Scene(falling_bar(13., "consistent"))));
+      EXPECT_FALSE(
+          warns_of_coupled_masses(Scene(falling_bar(12., "consistent")))); // rho g L / E .96
+      EXPECT_FALSE(warns_of_coupled_masses(Scene(falling_bar(1e5, "lumped"))));
+    }
+
+    TEST(UnitReview, CoupledMassesFallFurtherThanFreelyBesideAHandle)
+    {
+      for (const auto &[mass_matrix, least, most] :
+           { std::tuple<const char *, double, double>{ "consistent", 1.5, 1.6 },
+             { "lumped", 0.95, 1.0001 } })
+      {
+        Scene          scene(falling_bar(1e5, mass_matrix));
+        const FESpace &space = scene.problem.body.fe_space;
+        const Vector   rest = space.rest_positions(), end = scene.solve().positions;
+        double         fallen = 0.;
+        for (unsigned int dof = 2; dof < end.size(); dof += 3)
+          fallen = std::max(fallen, (rest[dof] - end[dof]) / (10. * 1e-3 * 1e-3));
+        EXPECT_GT(fallen, least) << mass_matrix;
+        EXPECT_LT(fallen, most) << mass_matrix;
+      }
     }
   } // namespace
 } // namespace Exemplar::Testing

@@ -27,6 +27,14 @@ namespace Exemplar
   /// The term of the obstacles in a problem's potential; null without obstacles.
   ObstacleTerm *
   find_obstacle_term(const Problem &problem);
+
+  /// The terms in a problem's potential of what the body touches: obstacles, and its own surface.
+  std::vector<const TouchingTerm *>
+  touching_terms(const Problem &problem);
+
+  /// Of all that the body touches on its nodes, where it is now [N].
+  Vector
+  contact_forces(const Problem &problem);
 } // namespace Exemplar
 
 #endif
