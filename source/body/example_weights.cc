@@ -134,7 +134,8 @@ namespace Exemplar
     // global ones
     const std::vector<double> &fraction = targets.fractions();
     for (unsigned int weight = 0; weight < n; ++weight)
-      penalty(weight, weight) = sigma * fraction[weight / targets.size()];
+      penalty(weight, weight) = sigma * fraction[weight / targets.size()]
+                                * parameters.part_of_ridge(weight % targets.size());
     if (parameters.energy != ExampleEnergy::scaled)
       targets.add_blended(blended_part(parameters.energy), penalty);
     form.H = penalty;
@@ -168,7 +169,8 @@ namespace Exemplar
       throw UserError(fmt::format("{} has {} lists separated by |, but {} Give one list for all{}",
                                   key, lists.size(),
                                   are_per_region ? fmt::format("there are {} regions.", n_regions)
-                                                 : "Examples/Weights per region is false.",
+                                                 : "all cells have the same weights "
+                                                   "(Examples/Weights per region is false).",
                                   are_per_region ? " or one for each region." : "."));
     for (const std::string &list : lists)
     {

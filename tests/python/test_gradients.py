@@ -189,6 +189,13 @@ class Differences(unittest.TestCase):
         self.assertNotIn("rest_positions", case.found)
         self.assertIn("rest_positions", self.check(scene()).found)
 
+    def test_regions_that_are_found(self):
+        """Which stay where they are while poses change."""
+        case = self.check(scene(Examples={"Regions": "auto", "Pose functions": " | ".join(
+            (*(f"x; y; z+0.2*{bump}" for bump in ("exp(-16*x^2)", "exp(-16*(x-2)^2)")), "x; 1.1*y; z"))}))
+        self.assertEqual(len(case.problem.weights), 8)
+        self.assertNotIn("rest_positions", case.found)
+
     def test_no_rest_pose_and_no_examples(self):
         self.assertEqual(len(self.check(scene(Examples={"Include rest pose": False})).found["poses"]), 3)
         problem = exemplar.Problem({**held_box((3, 2, 2)), "Loads": {"Gravity": [0, 0, -1]}, "Solver": {"Tolerance": 1e-12}})
