@@ -150,7 +150,7 @@ namespace Exemplar
     keys.add(
         "Region blend length", region_blend_length,
         "Distance [m] over which the weights of neighbouring regions pass into each "
-        "other; 0: at once, at the border, and with Regions = auto over half of the cube root of "
+        "other; 0: at once, at the border, and with Regions = auto over a quarter of the cube root of "
         "the smallest one's volume. Below the size of a cell: over about a cell.",
         Bounds{ 0. });
     keys.add_files("Weight maps", weight_maps,

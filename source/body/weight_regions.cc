@@ -19,7 +19,7 @@ namespace Exemplar
     const double spread_length = 0.1 * std::sqrt(12.);
 
     /// Length over which regions pass into each other, over the cube root of the smallest one's volume.
-    constexpr double blended_length = 0.5;
+    constexpr double blended_length = 0.25;
 
     /// Poses with less strain than this are rigid motions, but for rounding.
     constexpr double least_strain = 1e-6;

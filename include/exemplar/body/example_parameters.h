@@ -154,14 +154,6 @@ namespace Exemplar
     double
     ridge(double unit_energy) const;
 
-    /// The part of sigma on the weight of an example: less on rest in regions that were found, most of which
-    /// have examples without strain there. Their weights make no difference and would share the ridge.
-    double
-    part_of_ridge(const unsigned int example) const
-    {
-      return finds_regions() && has_rest_pose() && example == 0 ? 1e-3 : 1.;
-    }
-
     /// Throws UserError for what a pattern of the keys cannot exclude.
     void
     check() const;

@@ -42,7 +42,7 @@ namespace Exemplar
   /// The parts of a body that the poses strain alike and apart from others, by descending volume: densities
   /// |U - I|^2 of their stretches U, each over its integral and spread over a tenth of the cube root of the
   /// volume, have bumps there (parts_of_graph()). Poses that are rigid motions do not count. Shares pass into
-  /// each other over `blend_length` [m], LengthFilter; 0: half of the cube root of the smallest region's
+  /// each other over `blend_length` [m], LengthFilter; 0: a quarter of the cube root of the smallest region's
   /// volume. For tetrahedra, of a single process.
   WeightRegions
   find_weight_regions(const Mesh                    &mesh,

@@ -64,7 +64,7 @@ namespace Exemplar
     for (unsigned int weight = 0; weight < poses.n_weights(); ++weight)
     {
       const unsigned int region   = weight / poses.size();
-      const double       of_ridge = parameters.part_of_ridge(weight % poses.size()) * b[weight];
+      const double       of_ridge = problem.examples.weights.part_of_ridge(weight) * b[weight];
       sums.by_weights[weight] += sigma * fractions[region] * of_ridge;
       products[region] += w[weight] * of_ridge;
       mean += fractions[region] * w[weight] * of_ridge;
