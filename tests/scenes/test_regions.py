@@ -43,7 +43,7 @@ DYNAMIC = {**BAR, **BOTH_UP, "Scene": "dynamic", "Time/Increments": None, "Time/
 
 def without(scene, *ends):
     """The bar with these ends free."""
-    kept = {key: value for key, value in scene.items() if key.split("/")[1] not in ends}
+    kept = {key: value for key, value in scene.items() if not any(key.startswith(f"Handles/{end}/") for end in ends)}
     return {**kept, "Handles/Names": ", ".join(name for name in ("middle", "left", "right") if name not in ends)}
 
 
