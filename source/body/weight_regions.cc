@@ -25,7 +25,7 @@ namespace Exemplar
     constexpr double least_strain = 1e-6;
 
     /// Lesser shares of regions that are elsewhere do not matter; a region keeps this where it is.
-    constexpr double smallest_share = 1e-3;
+    constexpr double smallest_share = 1e-2;
 
     /// |U - I|^2 of the stretch in a deformation gradient.
     double
