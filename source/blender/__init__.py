@@ -41,6 +41,7 @@ class Settings(bpy.types.PropertyGroup):
         ("FREE", "Free", "They sum to 1 and may be negative or greater than 1: keys go beyond their shapes")])
     regions: EnumProperty(name="Regions", default="NONE", items=[
         ("NONE", "None", "The shape keys have the same weights in the whole body"),
+        ("AUTO", "Found", "Parts that the shape keys strain apart from others, as limbs, have weights of their own"),
         ("PAINTED", "Painted", "Each vertex group whose name begins with 'exemplar region ' has weights of its own")])
     damping: FloatProperty(name="Damping", default=0, min=0, description="How fast all motion dies away, as in air or water [1/s]")
     inner_damping: FloatProperty(name="Inner damping", default=0, min=0, precision=4,

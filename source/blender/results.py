@@ -115,13 +115,15 @@ def silence_keys(copy):
 def weights_of_keys(result, surface, shot, run):
     """{name of a shape key: a value a frame}. Regions have keys of their own, which are added to the result and to the surface's shapes."""
     weights, values = run.weights(), {}
+    named = dict(enumerate(["elsewhere", *(name.split(maxsplit=2)[2] for name in shot.regions)]))
+    numbers = sorted({int(name.split("_")[1]) for name in weights if name.count("_") == 2})
     for i, pose in enumerate(shot.poses, 1):
-        if not shot.regions:
+        if not numbers:
             if f"weight_{i}" in weights and pose in surface.shapes:
                 values[pose] = weights[f"weight_{i}"]
             continue
-        for r, region in enumerate(["elsewhere", *(name.split(maxsplit=2)[2] for name in shot.regions)]):
-            weight = f"weight_{r}_{i}"
+        for r in numbers:
+            region, weight = named[r] if shot.regions else f"region {r}", f"weight_{r}_{i}"
             if weight in weights:
                 places = exemplar_blender.read_obj(run.directory / f"{weight}.obj")[0]
                 key = result.shape_key_add(name=f"{pose} {region}", from_mix=False)

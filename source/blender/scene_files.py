@@ -247,6 +247,8 @@ def scene_text(body, settings, scene, shot, painted, is_posed, obstacles):
                     "Importance": f"{settings.importance:.7g}", "Weights": settings.weights.lower()}
         if shot.regions:
             examples["Weight maps"] = ", ".join(f"groups.csv:region_{i}" for i in range(1, len(shot.regions) + 1))
+        if settings.regions == "AUTO":
+            examples["Regions"] = "auto"
         keys.add("Examples", **examples)
     handles = handles_of(settings, scene, is_posed)
     if handles:

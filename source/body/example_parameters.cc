@@ -14,18 +14,20 @@ namespace Exemplar
 {
   namespace
   {
-    const EnumTable<ExampleEnergy> energies        = { { ExampleEnergy::scaled, "scaled" },
-                                                       { ExampleEnergy::blended, "blended" },
-                                                       { ExampleEnergy::mixed, "mixed" } };
-    const EnumTable<ActsOn>        kinds_of_acting = { { ActsOn::all, "all" },
-                                                       { ActsOn::shape, "shape" },
-                                                       { ActsOn::volume, "volume" },
-                                                       { ActsOn::along_fibres, "along fibres" },
-                                                       { ActsOn::across_fibres, "across fibres" } };
-    const EnumTable<WeightRule>    weight_kinds    = { { WeightRule::simplex, "simplex" },
-                                                       { WeightRule::free, "free" },
-                                                       { WeightRule::prescribed, "prescribed" },
-                                                       { WeightRule::additive, "additive" } };
+    const EnumTable<ExampleEnergy>     energies        = { { ExampleEnergy::scaled, "scaled" },
+                                                           { ExampleEnergy::blended, "blended" },
+                                                           { ExampleEnergy::mixed, "mixed" } };
+    const EnumTable<ActsOn>            kinds_of_acting = { { ActsOn::all, "all" },
+                                                           { ActsOn::shape, "shape" },
+                                                           { ActsOn::volume, "volume" },
+                                                           { ActsOn::along_fibres, "along fibres" },
+                                                           { ActsOn::across_fibres, "across fibres" } };
+    const EnumTable<RegionsOfExamples> kinds_of_regions
+        = { { RegionsOfExamples::none, "none" }, { RegionsOfExamples::automatic, "auto" } };
+    const EnumTable<WeightRule> weight_kinds = { { WeightRule::simplex, "simplex" },
+                                                 { WeightRule::free, "free" },
+                                                 { WeightRule::prescribed, "prescribed" },
+                                                 { WeightRule::additive, "additive" } };
 
     /// sigma for "auto", "weak" and "paper", in units of sum E V.
     double
@@ -139,10 +141,18 @@ namespace Exemplar
     keys.add("Weights per region", weights_per_region,
              "Whether the cells of each material id have weights of their own "
              "(statistics: weight_R_i for example i in region R).");
-    keys.add("Region blend length", region_blend_length,
-             "Distance [m] over which the weights of neighbouring regions pass into each "
-             "other; 0: at once, at the border. Below the size of a cell: over about a cell.",
-             Bounds{ 0. });
+    keys.add(
+        "Regions", regions, kinds_of_regions,
+        "auto: parts of the body that the examples strain alike and apart from others, as limbs, "
+        "a tail and a head, are found and have weights of their own (statistics: weight_R_i for "
+        "example i in region R, from 1, as the log and summary.json describe them); none: what "
+        "Weights per region or Weight maps say.");
+    keys.add(
+        "Region blend length", region_blend_length,
+        "Distance [m] over which the weights of neighbouring regions pass into each "
+        "other; 0: at once, at the border, and with Regions = auto over a quarter of the cube root of "
+        "the smallest one's volume. Below the size of a cell: over about a cell.",
+        Bounds{ 0. });
     keys.add_files("Weight maps", weight_maps,
                    "Painted regions with weights of their own: a list of FILE.ply:ATTRIBUTE or "
                    "FILE.csv[:COLUMN], each with values from 0 to 1 for the vertices of "
@@ -256,9 +266,13 @@ namespace Exemplar
       throw UserError(
           "Examples/Weight maps and Examples/Weights per region are both given, but only "
           "one of them can say where weights act. Remove one of them.");
-    if (region_blend_length > 0. && !weights_per_region)
+    if (regions == RegionsOfExamples::automatic && (weights_per_region || !weight_maps.empty()))
+      throw UserError(std::string("Examples/Regions = auto finds where weights act, but Examples/")
+                      + (weights_per_region ? "Weights per region = true" : "Weight maps")
+                      + " says it, too. Remove one of them.");
+    if (region_blend_length > 0. && !weights_per_region && regions == RegionsOfExamples::none)
       throw UserError("Examples/Region blend length is given, but Examples/Weights per region is "
-                      "false. Set it to true, or remove the length.");
+                      "false and Examples/Regions is none. Set one of them, or remove the length.");
     if (weights != WeightRule::prescribed && !prescribed_weights.empty())
       throw UserError("Examples/Prescribed weights is given, but Examples/Weights is not "
                       "'prescribed'. Set it, or remove the weights.");

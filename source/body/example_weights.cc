@@ -31,6 +31,34 @@ namespace Exemplar
     /// A weight nearer to its upper bound than this differs from it by rounding alone.
     constexpr double rounding_of_weights = 1e-14;
 
+    /// The parts of the ridge in regions that were found; empty without. Many examples strain a region little or
+    /// not at all, so that their weights make no difference there, and take part in what is next to it. So the ridge
+    /// is a hundred-thousandth of what the example that strains the region most costs, and rest has hardly any: it is what
+    /// remains. Regions stay as they were found while poses change, and so does this.
+    std::vector<double>
+    parts_in_found_regions(const ExampleParameters &parameters, const ExampleTargets &targets)
+    {
+      constexpr double part_of_rest = 1e-3, part_of_strains = 1e4; // times 1e-9 sum E V
+      if (!parameters.finds_regions() || targets.n_regions() == 1 || !parameters.are_bounded())
+        return {};
+      const std::vector<double> measures = targets.measures_of_weights();
+      std::vector<double>       parts;
+      for (unsigned int region = 0; region < targets.n_regions(); ++region)
+      {
+        double most = 0.; // mean square of strains
+        for (unsigned int i = 0; i < targets.size(); ++i)
+        {
+          const unsigned int weight = region * targets.size() + i;
+          most = std::max(most, std::pow(targets.norms()[weight] / parameters.importance, 2)
+                                    / measures[weight]);
+        }
+        for (unsigned int i = 0; i < targets.size(); ++i)
+          parts.push_back(i == 0 && parameters.has_rest_pose() ? part_of_rest
+                                                               : 1. + part_of_strains * most);
+      }
+      return parts;
+    }
+
     std::string
     names_of_examples(const ExampleTargets &targets)
     {
@@ -61,6 +89,7 @@ namespace Exemplar
                                  const TimeAxis          &axis)
       : targets(targets), bounded(parameters.are_bounded()),
         additive(parameters.weights == WeightRule::additive),
+        parts_of_ridge(parts_in_found_regions(parameters, targets)),
         memory(make_memory(parameters, targets))
   {
     if (parameters.weights == WeightRule::prescribed && size() > 0)
@@ -134,7 +163,7 @@ namespace Exemplar
     // global ones
     const std::vector<double> &fraction = targets.fractions();
     for (unsigned int weight = 0; weight < n; ++weight)
-      penalty(weight, weight) = sigma * fraction[weight / targets.size()];
+      penalty(weight, weight) = sigma * fraction[weight / targets.size()] * part_of_ridge(weight);
     if (parameters.energy != ExampleEnergy::scaled)
       targets.add_blended(blended_part(parameters.energy), penalty);
     form.H = penalty;
@@ -168,7 +197,8 @@ namespace Exemplar
       throw UserError(fmt::format("{} has {} lists separated by |, but {} Give one list for all{}",
                                   key, lists.size(),
                                   are_per_region ? fmt::format("there are {} regions.", n_regions)
-                                                 : "Examples/Weights per region is false.",
+                                                 : "all cells have the same weights "
+                                                   "(Examples/Weights per region is false).",
                                   are_per_region ? " or one for each region." : "."));
     for (const std::string &list : lists)
     {
@@ -308,16 +338,33 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// The form of weights that are the same in all regions.
+    dealii::FullMatrix<double>
+    of_whole_body(const dealii::FullMatrix<double> &form, const unsigned int n_examples)
+    {
+      dealii::FullMatrix<double> sum(n_examples, n_examples);
+      for (unsigned int v = 0; v < form.m(); ++v)
+        for (unsigned int w = 0; w < form.n(); ++w)
+          sum(v % n_examples, w % n_examples) += form(v, w);
+      return sum;
+    }
+  } // namespace
+
   void
   ExampleWeights::check_independence(const double unit_energy, const bool has_ridge)
   {
     const unsigned int k = n_per_region();
+    // in regions that were found many examples have no strain, which the ridge expects
+    const bool are_found = !parts_of_ridge.empty() && has_ridge;
     // a key may have nothing to do with a region, where the ridge keeps its weight at 0
     const bool may_be_elsewhere = additive && has_ridge && n_regions() > 1;
     // strains of 1e-10 are rounding errors of a rest pose
-    const double of_rounding             = std::pow(1e-10 * targets.importance(), 2) * unit_energy;
-    const dealii::FullMatrix<double> all = form_of_changes(targets.gram());
-    std::vector<unsigned int>        rows;
+    const double of_rounding = std::pow(1e-10 * targets.importance(), 2) * unit_energy;
+    const dealii::FullMatrix<double> all
+        = form_of_changes(are_found ? of_whole_body(targets.gram(), k) : targets.gram());
+    std::vector<unsigned int> rows;
     for (unsigned int d = 0; d < all.m(); ++d)
       if (!may_be_elsewhere || all(d, d) > of_rounding)
         rows.push_back(d);
@@ -332,7 +379,7 @@ namespace Exemplar
       return;
     const unsigned int example = second(least.row) % k;
     const auto         region  = targets.region_id(second(least.row) / k);
-    const std::string  where   = region ? fmt::format(" in region {}", *region) : "";
+    const std::string  where   = region && !are_found ? fmt::format(" in region {}", *region) : "";
     const std::string  which
         = fmt::format("Example {} ({}){}", targets.number(example), targets.name(example), where);
     const std::string combination = additive ? "a sum of multiples of the keys before it"

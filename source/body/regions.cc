@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/spd_operator.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/body/length_filter.h>
 #include <exemplar/body/regions.h>
 
 #include <fmt/core.h>
@@ -14,47 +14,6 @@ namespace Exemplar
   {
     constexpr double negligible_share = 1e-4;
 
-    /// Lower triangle of a nodal matrix.
-    SymmetricPattern
-    lower_pattern(const dealii::SparsityPattern &nodal)
-    {
-      SymmetricPattern pattern;
-      pattern.column_start.push_back(0);
-      for (unsigned int node = 0; node < nodal.n_rows(); ++node)
-      {
-        const auto begin = pattern.row.size();
-        for (auto entry = nodal.begin(node); entry != nodal.end(node); ++entry)
-          if (entry->column() >= node)
-            pattern.row.push_back(static_cast<int>(entry->column()));
-        std::sort(pattern.row.begin() + static_cast<std::ptrdiff_t>(begin), pattern.row.end());
-        pattern.column_start.push_back(static_cast<int>(pattern.row.size()));
-      }
-      return pattern;
-    }
-
-    /// Matrix of the filter: lumped mass plus l^2 times the stiffness of Laplace's equation.
-    void
-    assemble_filter(const FESpace          &fe_space,
-                    const double            l_square,
-                    SpdOperator            &filter,
-                    const SymmetricPattern &pattern)
-    {
-      std::vector<double> &values = filter.values();
-      std::fill(values.begin(), values.end(), 0.);
-      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
-      {
-        const auto g = fe_space.gradients(cell);
-        for (unsigned int a = 0; a < 4; ++a)
-          for (unsigned int b = 0; b < 4; ++b)
-          {
-            const auto row    = static_cast<int>(fe_space.nodes(cell)[a]);
-            const auto column = static_cast<int>(fe_space.nodes(cell)[b]);
-            if (row >= column)
-              values[pattern.position(row, column)]
-                  += fe_space.volume(cell) * (l_square * dot(g[a], g[b]) + (a == b ? 0.25 : 0.));
-          }
-      }
-    }
     /// The shares in each cell of a region's material, spread over the length.
     RegionShares
     blended(const std::vector<unsigned int> &ids,
@@ -63,18 +22,12 @@ namespace Exemplar
             const double                     length,
             const unsigned int               points_per_cell)
     {
-      const SymmetricPattern pattern = lower_pattern(linear.nodal_pattern());
-      const auto             filter  = make_cholesky_operator();
-      filter->reinit(pattern);
-      assemble_filter(linear, length * length / 12., *filter, pattern);
-      filter->factorize(linear.rest_positions());
-
+      const LengthFilter  filter(linear, length);
       const std::size_t   n = linear.n_nodes();
       std::vector<double> columns(n * ids.size());
       for (unsigned int cell = 0; cell < linear.n_cells(); ++cell)
-        for (const unsigned int node : linear.nodes(cell))
-          columns[region_of_cell[cell] * n + node] += 0.25 * linear.volume(cell);
-      filter->solve(columns);
+        filter.add(cell, 1., &columns[region_of_cell[cell] * n]);
+      filter.solve(columns);
 
       std::vector<std::size_t> start = { 0 };
       std::vector<RegionShare> shares;
@@ -84,8 +37,7 @@ namespace Exemplar
         double              sum = 0.;
         for (unsigned int region = 0; region < ids.size(); ++region)
         {
-          for (const unsigned int node : linear.nodes(cell))
-            value[region] += 0.25 * columns[region * n + node];
+          value[region] = filter.mean(cell, &columns[region * n]);
           // obtuse cells can push a share a little below zero; far regions do not matter
           if (region != region_of_cell[cell] && value[region] < negligible_share)
             value[region] = 0.;

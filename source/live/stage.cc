@@ -232,17 +232,18 @@ namespace Exemplar::Live
       throw UserError("examples do nothing while Examples/Importance is 0. Set it in the scene.");
     BodyFields of_next  = fields;
     of_next.poses[name] = std::move(places);
-    auto with_one_more  = make_problem(
-         next,
-         [&](const CompleteScene &)
-         {
-          return BodyInputs{ Mesh(contents, next.mesh.name(), next.mesh.scale, next.mesh.kind),
-                             of_next, undivided };
-        });
+    Mesh            mesh(contents, next.mesh.name(), next.mesh.scale, next.mesh.kind);
+    UndividedInputs apart = undivided;
+    apart.weight_regions  = find_regions(next.examples, mesh, of_next);
+    auto with_one_more    = make_problem(next,
+                                         [&](const CompleteScene &) {
+                                        return BodyInputs{ std::move(mesh), of_next, apart };
+                                      });
     player.reset();
     problem    = std::move(with_one_more);
     parameters = std::move(next);
     fields     = std::move(of_next);
+    undivided  = std::move(apart);
     moments.clear();
     if (recording)
     {

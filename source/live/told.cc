@@ -62,6 +62,18 @@ namespace Exemplar::Live
       return names;
     }
 
+    /// Numbers of the regions with weights of their own; empty where all cells have the same weights.
+    std::vector<unsigned int>
+    numbers_of_regions(const Problem &problem)
+    {
+      const ExamplePoses       &poses = problem.examples.poses;
+      std::vector<unsigned int> numbers;
+      for (unsigned int region = 0; poses.size() > 0 && region < poses.n_regions(); ++region)
+        if (const auto number = poses.region_id(region))
+          numbers.push_back(*number);
+      return numbers;
+    }
+
     Json
     bounds_of(const Hand &hand)
     {
@@ -200,6 +212,7 @@ namespace Exemplar::Live
           { "vertices", surface.nodes.size() },
           { "triangles", surface.triangles.size() },
           { "examples", names_of_examples(problem) },
+          { "weight_regions", numbers_of_regions(problem) },
           { "handles", handles_of(problem, surface) },
           { "stiffness", hand.unit_stiffness() },
           { "grab_radius", hand.grab_radius() },

@@ -15,31 +15,35 @@ export class Weights {
     find("with").onchange = () => this.toggle();
   }
 
-  setScene({ examples, finds_weights: areFound, weights_add: areAdded, importance, bounds }) {
+  setScene({ examples, weight_regions: regions, finds_weights: areFound, weights_add: areAdded, importance, bounds }) {
     this.areAdded = areAdded;
     find("examples").hidden = examples.length === 0;
     find("rule").hidden = !areFound;
     find("switch").hidden = !(importance > 0);
     [this.least] = bounds.importance;
-    this.bars = examples.map((name, i) => this.bar(name, i));
+    this.bars = examples.map((name, i) => this.bar(name, i, regions.length > 1 ? regions : [null]));
     find("weights").replaceChildren(...this.bars.map(({ element }) => element));
   }
 
-  bar(name, i) {
+  // One fill a region, one under the other.
+  bar(name, i, regions) {
     const element = create("div", { className: "weight" });
     const picture = create("canvas", { width: 144, height: 108 });
     const right = create("div");
     const label = create("span", { textContent: name, className: "name", title: name });
     const output = create("output");
     const bar = create("div", { className: "bar" });
-    const fill = create("i");
-    bar.append(fill);
+    const fills = regions.map((number) => create("i", { title: number === null ? "" : `region ${number}` }));
+    bar.style.height = `${Math.max(10, 4 * fills.length)}px`;
+    for (const fill of fills)
+      fill.style.height = `${100 / fills.length}%`;
+    bar.append(...fills);
     const input = create("input", { type: "range", min: 0, max: 1, step: 0.01, hidden: true });
     input.setAttribute("aria-label", `weight of ${name}`);
     input.oninput = () => this.hold(i, Number(input.value));
     right.append(label, output, bar, input);
     element.append(picture, right);
-    return { element, picture, fill, output, input };
+    return { element, picture, fills, output, input };
   }
 
   // Ask for the examples to act, or to do as if there were none. The switch turns when the server says so.
@@ -78,14 +82,14 @@ export class Weights {
     });
   }
 
-  // The mean of all regions.
+  // The number is the mean of all regions.
   setStatus({ weights }) {
     const n = this.bars.length;
-    this.inForce = this.bars.map(({ output, fill }, i) => {
+    this.inForce = this.bars.map(({ output, fills }, i) => {
       const regions = weights.filter((_, k) => k % n === i);
       const mean = regions.reduce((sum, w) => sum + w, 0) / Math.max(1, regions.length);
       output.value = mean.toFixed(2);
-      fill.style.width = `${100 * Math.min(1, Math.max(0, mean))}%`;
+      fills.forEach((fill, k) => (fill.style.width = `${100 * Math.min(1, Math.max(0, regions[k] ?? 0))}%`));
       return mean;
     });
   }

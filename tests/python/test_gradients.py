@@ -189,6 +189,39 @@ class Differences(unittest.TestCase):
         self.assertNotIn("rest_positions", case.found)
         self.assertIn("rest_positions", self.check(scene()).found)
 
+    def test_regions_that_are_found(self):
+        """They stay where they were found while a pose changes."""
+        ends = [["x", "y", f"z-0.05*max(0,{way})^2"] for way in ("3-x", "x-5")]
+        problem = exemplar.Problem({"Scene": "static", "Mesh": {"Generator": "box", "Box size": [8, 1, 1], "Box cells": [12, 2, 2]},
+                                    "Handles": {"middle": {"Select": "box 3 -1 -1 5 1 1"}}, "Loads": {"Gravity": [0, 0, -2]},
+                                    "Examples": {"Pose functions": ends, "Regions": "auto", "Importance": 0.7}, "Time": {"Increments": 1},
+                                    "Solver": {"Tolerance": 1e-12}})
+        problem.run()
+        self.assertEqual(len(problem.weights), 6)
+        rest, state = problem.rest_positions, problem.state
+        by_positions, by_weights = random.normal(size=rest.shape), random.normal(size=6)
+        found = problem.vjp(by_positions, by_weights)
+        self.assertEqual(found["weakly_active"], [])
+        self.assertNotIn("rest_positions", found)
+
+        def value(change):
+            change()
+            problem.state = state
+            problem.step()
+            return (by_positions * problem.positions).sum() + by_weights @ problem.weights
+
+        def check(name, change, expected):
+            with self.subTest(name):
+                slope = (value(lambda: change(1e-4)) - value(lambda: change(-1e-4))) / 2e-4
+                change(0)
+                self.assertLess(abs(slope - expected), 1e-5 * abs(expected))
+        pose = np.stack([rest[:, 0], rest[:, 1], rest[:, 2] - 0.05 * np.maximum(0, 3 - rest[:, 0])**2], axis=1)
+        way, young = random.normal(size=pose.shape), problem.young * random.uniform(0, 1, len(problem.young))
+        base = problem.young.copy()
+        check("poses", lambda t: problem.set_pose(1, pose + t * way), (found["poses"][0] * way).sum())
+        check("young", lambda t: problem.set_material(young=base + t * young), (found["young"] * young).sum())
+        check("importance", lambda t: setattr(problem, "importance", 0.7 + t), found["importance"])
+
     def test_no_rest_pose_and_no_examples(self):
         self.assertEqual(len(self.check(scene(Examples={"Include rest pose": False})).found["poses"]), 3)
         problem = exemplar.Problem({**held_box((3, 2, 2)), "Loads": {"Gravity": [0, 0, -1]}, "Solver": {"Tolerance": 1e-12}})

@@ -80,6 +80,12 @@ class Resume(SceneTest):
     def test_killed_scene_with_keys_that_add_up(self):
         self.check_kills({**DYNAMIC, "Examples/Weights": "additive", "Examples/Yield": "0.1", "Examples/Creep viscosity": "1"}, [(30, 0.)])
 
+    def test_killed_scene_with_regions_that_are_found(self):
+        ends = "x; y; z+0.3*max(0,0.8-x)^2 | x; y; z+0.3*max(0,x-1.2)^2"
+        self.check_kills({**DYNAMIC, "Mesh/Box cells": "12, 3, 3", "Mesh/Box size": "2, .5, .5", "Examples/Pose functions": ends,
+                          "Examples/Regions": "auto"}, [(30, 0.)])
+        self.assertIn("weight_2_2", read_csv(self.directory / "whole")[-1])
+
     def test_killed_dynamic_scene(self):
         self.check_kills({**DYNAMIC, "Examples/Weights": "free"}, [(2, 0.), (11, 0.003), (22, 0.006), (36, 0.001)])
         rows = read_csv(self.directory / "whole")  # something must have moved

@@ -29,6 +29,13 @@ namespace Exemplar
     prescribed
   };
 
+  /// Whether regions with weights of their own are looked for.
+  enum class RegionsOfExamples
+  {
+    none,
+    automatic ///< where the examples strain the body alike and apart from others
+  };
+
   /// The part of the strain that examples act on, Eq. (31).
   enum class ActsOn
   {
@@ -81,8 +88,16 @@ namespace Exemplar
     double                   creep_viscosity     = 0.; ///< [J s/m^3]
     bool                     weights_per_region  = false;
     double                   region_blend_length = 0.; ///< [m]
-    std::vector<std::string> weight_maps;              ///< FILE:ATTRIBUTE, one a region
-    bool in_single_precision = false; ///< store strains in single precision; no key of scenes
+    RegionsOfExamples        regions             = RegionsOfExamples::none;
+    std::vector<std::string> weight_maps; ///< FILE:ATTRIBUTE, one a region
+    bool in_single_precision = false;     ///< store strains in single precision; no key of scenes
+
+    /// Whether the examples' strains say where weights act.
+    bool
+    finds_regions() const
+    {
+      return in_use() && regions == RegionsOfExamples::automatic;
+    }
 
     /// Whether painted maps say where weights act.
     bool

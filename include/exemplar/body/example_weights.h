@@ -160,6 +160,14 @@ namespace Exemplar
       return penalty;
     }
 
+    /// The part of sigma, Examples/Weight penalty, on a weight, over the volume fraction of its region; 1 but in
+    /// regions that were found.
+    double
+    part_of_ridge(const unsigned int weight) const
+    {
+      return parts_of_ridge.empty() ? 1. : parts_of_ridge[weight];
+    }
+
     /// The minimiser of w^T H w / 2 - c^T w under bounds and sums, from `start` near it. Throws
     /// SolverFailure if it is not determined.
     std::vector<double>
@@ -222,6 +230,7 @@ namespace Exemplar
 
     const ExampleTargets      &targets;
     const bool                 bounded, additive;
+    const std::vector<double>  parts_of_ridge; ///< see part_of_ridge(); empty: all 1
     WeightMemory               memory;
     WeightForm                 form;
     dealii::FullMatrix<double> penalty;

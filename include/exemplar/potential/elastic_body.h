@@ -26,6 +26,8 @@ namespace Exemplar
     std::vector<double> von_mises_stress;      ///< of the corotated stress C:(e - eta E(w)) [Pa]
     std::vector<double> plastic_strain
         = {}; ///< the equivalent one [-]; empty unless cells may yield
+    std::vector<int> weight_region
+        = {}; ///< number of the region with the greatest share; empty unless regions were found
   };
 
   /// Psi(x, w), Eqs. (5) and (16), with the stiffness damping, as solvers know it, whatever the body is

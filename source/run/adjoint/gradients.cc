@@ -120,7 +120,7 @@ namespace Exemplar
         result.poses.push_back(negative(std::move(slope.by_poses[i])));
     const ExampleParameters &examples = problem.parameters.examples;
     if ((!examples.weights_per_region || examples.region_blend_length == 0.)
-        && knows_starts_beside_obstacles(problem))
+        && examples.regions == RegionsOfExamples::none && knows_starts_beside_obstacles(problem))
       result.rest_positions = negative(std::move(slope.by_rest_positions));
     result.obstacles = of_obstacles(problem, slope);
     return result;

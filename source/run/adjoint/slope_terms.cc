@@ -58,15 +58,16 @@ namespace Exemplar
     const std::vector<double> &fractions = poses.fractions();
     const std::vector<double> &w = problem.state.weights, &b = direction.weights;
     const WeightMemory        &memory = problem.examples.weights.get_memory();
-    std::vector<double>        products(fractions.size(), 0.); // w.b of each region
-    std::vector<double>        prices(fractions.size(), 0.);   // of moving along b, per volume
-    double                     mean = 0.;
+    std::vector<double> products(fractions.size(), 0.); // w.b of each region, by parts of the ridge
+    std::vector<double> prices(fractions.size(), 0.);   // of moving along b, per volume
+    double              mean = 0.;
     for (unsigned int weight = 0; weight < poses.n_weights(); ++weight)
     {
-      const unsigned int region = weight / poses.size();
-      sums.by_weights[weight] += sigma * fractions[region] * b[weight];
-      products[region] += w[weight] * b[weight];
-      mean += fractions[region] * w[weight] * b[weight];
+      const unsigned int region   = weight / poses.size();
+      const double       of_ridge = problem.examples.weights.part_of_ridge(weight) * b[weight];
+      sums.by_weights[weight] += sigma * fractions[region] * of_ridge;
+      products[region] += w[weight] * of_ridge;
+      mean += fractions[region] * w[weight] * of_ridge;
       if (memory.yields())
         prices[region]
             += memory.slopes(weight, w[weight], 0.).up * b[weight] / (fractions[region] * total);

@@ -112,6 +112,9 @@ namespace Exemplar
           write_scalars(out, "plastic_strain", frame.cells.plastic_strain);
         if (frame.space_error && frame.space_error->failure.empty())
           write_scalars(out, "space_error", frame.space_error->energy_density);
+        if (!frame.cells.weight_region.empty())
+          write_array(out, "Int32", "weight_region", 1, frame.cells.weight_region.data(),
+                      frame.cells.weight_region.size());
         out << regions << "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
         atomic_file.commit_without_sync();
       }
@@ -157,6 +160,8 @@ namespace Exemplar
       declare("Float64", name, 1);
     if (!frame.cells.plastic_strain.empty())
       declare("Float64", "plastic_strain", 1);
+    if (!frame.cells.weight_region.empty())
+      declare("Int32", "weight_region", 1);
     declare("Int32", "region", 1);
     out << "</PCellData>\n";
     for (const std::string &piece : pieces)

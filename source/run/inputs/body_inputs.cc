@@ -114,18 +114,30 @@ namespace Exemplar
     }
   } // namespace
 
+  std::vector<WeightRegion>
+  find_regions(const ExampleParameters &examples, const Mesh &mesh, BodyFields &fields)
+  {
+    if (!examples.finds_regions())
+      return {};
+    WeightRegions found = find_weight_regions(mesh, poses_of_body(examples, mesh, fields.poses),
+                                              examples.region_blend_length);
+    fields.shares       = std::move(found.shares);
+    return std::move(found.regions);
+  }
+
   BodyInputs
   make_body_inputs(const CompleteScene &scene, Inputs inputs)
   {
     const bool needs_inputs = scene.output.space_error != SpaceErrorUse::never;
     auto       kept         = needs_inputs ? std::make_shared<const Inputs>(inputs) : nullptr;
     Mesh       mesh(std::move(inputs.mesh), scene.mesh.name(), scene.mesh.scale, scene.mesh.kind);
-    SurfaceReadings readings = read_off_surface(scene, mesh, inputs);
-    BodyFields      fields   = make_fields(scene, mesh, inputs, readings);
+    SurfaceReadings           readings = read_off_surface(scene, mesh, inputs);
+    BodyFields                fields   = make_fields(scene, mesh, inputs, readings);
+    std::vector<WeightRegion> regions  = find_regions(scene.examples, mesh, fields);
     return { std::move(mesh),
              std::move(fields),
              { readings.motions, readings.warnings, inputs.surface, std::move(inputs.carried),
-               inputs.made, inputs.geo_walls, std::move(kept) } };
+               inputs.made, inputs.geo_walls, std::move(kept), std::move(regions) } };
   }
 
   BodyInputs

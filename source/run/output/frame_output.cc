@@ -57,6 +57,32 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// The number of the region with the greatest share in each cell, the first of equal ones; 1 where there is
+    /// one region.
+    std::vector<int>
+    weight_regions(const ExamplePoses &poses, const FESpace &fe_space)
+    {
+      const unsigned int n_points = points_per_cell(fe_space.element()); // all with the same shares
+      std::vector<int>   numbers;
+      for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
+      {
+        double greatest = 0.;
+        numbers.push_back(1);
+        poses.get_strains().get_shares().for_each(cell * n_points,
+                                                  [&](const unsigned int region, const double share)
+                                                  {
+                                                    if (share > greatest)
+                                                      numbers.back() = static_cast<int>(
+                                                          poses.region_id(region).value_or(1));
+                                                    greatest = std::max(greatest, share);
+                                                  });
+      }
+      return numbers;
+    }
+  } // namespace
+
   Frame
   frame_of(Problem &problem)
   {
@@ -69,6 +95,8 @@ namespace Exemplar
     frame.displacement -= problem.body.fe_space.rest_positions();
     frame.velocities = state.velocities;
     frame.cells      = problem.elastic->cell_results(state.positions, state.weights);
+    if (problem.parameters.examples.finds_regions())
+      frame.cells.weight_region = weight_regions(problem.examples.poses, problem.body.fe_space);
     for (const auto &term : problem.potential.get_terms())
       term->append_fields(state.positions, frame.fields);
     for (NodalField &field : frame.fields)

@@ -224,6 +224,22 @@ namespace Exemplar
                                     { "nodes", ranges_of(handles.nodes(handle)) } });
     }
 
+    /// The regions that were found, in the order of their numbers, which begin at 1.
+    void
+    add_weight_regions(const std::vector<WeightRegion> &regions, Json &json)
+    {
+      for (std::size_t i = 0; i < regions.size(); ++i)
+      {
+        const WeightRegion &region = regions[i];
+        json["weight_regions"].push_back(
+            { { "region", i + 1 },
+              { "cells", region.n_cells },
+              { "volume", region.volume },
+              { "centre", { region.centre[0], region.centre[1], region.centre[2] } },
+              { "example", printable(region.example) } });
+      }
+    }
+
     void
     add_memory(const Problem &problem, const SharedNumbers &numbers, Json &json)
     {
@@ -252,6 +268,7 @@ namespace Exemplar
               add_program(problem, numbers, json);
               add_body(problem, numbers, mesh_sha256, json);
               add_names(problem, json);
+              add_weight_regions(problem.body.weight_regions, json);
               json["linear_solver"]  = problem.system.bordered().traits().name;
               json["examples"]       = problem.examples.poses.size();
               json["steps"]          = problem.state.step;

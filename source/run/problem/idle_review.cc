@@ -70,6 +70,24 @@ namespace Exemplar
       return examples.poses.size() == 0 || examples.weights.are_additive()
              || (!examples.weights.are_prescribed() && !examples.poses.is_strained(0));
     }
+    /// What Examples/Regions = auto found, a note a region.
+    void
+    describe_regions(const std::vector<WeightRegion> &regions, std::vector<std::string> &notes)
+    {
+      if (regions.size() == 1)
+        notes.push_back("Examples/Regions = auto does nothing: the examples strain the body as one "
+                        "region");
+      if (regions.size() < 2)
+        return;
+      notes.push_back(fmt::format("Examples/Regions = auto found {} regions:", regions.size()));
+      for (std::size_t i = 0; i < regions.size(); ++i)
+        notes.push_back(fmt::format(
+            "region {}: {} cells, {} % of the volume, round {}, {}, {}{}", i + 1,
+            regions[i].n_cells, short_text(100. * regions[i].volume),
+            short_text(regions[i].centre[0]), short_text(regions[i].centre[1]),
+            short_text(regions[i].centre[2]),
+            regions[i].example.empty() ? "" : ", most strained by " + regions[i].example));
+    }
   } // namespace
 
   std::vector<std::string>
@@ -105,6 +123,7 @@ namespace Exemplar
     if (problem.parameters.examples.weights_per_region && weights.n_regions() == 1
         && weights.size() > 0)
       notes.push_back("Examples/Weights per region does nothing: the body has one region");
+    describe_regions(problem.body.weight_regions, notes);
     return notes;
   }
 } // namespace Exemplar

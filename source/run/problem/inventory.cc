@@ -72,7 +72,9 @@ namespace Exemplar
       { "example poses", poses.size() > 0, poses.size() > 0 ? poses.memory_consumption() : 0 },
       { "weight block", finds_weights, problem.system.memory_of_weights() },
       { "weights per region",
-        poses.size() > 0 && problem.parameters.examples.weights_per_region,
+        poses.size() > 0
+            && (problem.parameters.examples.weights_per_region
+                || (problem.parameters.examples.finds_regions() && poses.n_regions() > 1)),
         {} },
       { "memory of weights", problem.examples.weights.get_memory().in_use(), {} },
       { "Schur complement", finds_weights && !solver_is("umfpack"), {} },

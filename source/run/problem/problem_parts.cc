@@ -156,7 +156,7 @@ namespace Exemplar
         cell_material(patches.rest_of(material)), made(inputs.undivided.made),
         geo_walls(inputs.undivided.geo_walls), warnings(inputs.undivided.warnings),
         surface(inputs.undivided.surface), carried(std::move(inputs.undivided.carried)),
-        inputs(inputs.undivided.inputs)
+        inputs(inputs.undivided.inputs), weight_regions(inputs.undivided.weight_regions)
   {
   }
 

@@ -106,6 +106,10 @@ namespace Exemplar
               + "Mesh/Files and Ties are not for shells yet. Give one Mesh/File, in pieces if "
                 "need be." },
         { loads.balanced, key + "Loads/Balanced = true is not for shells yet. Set it to false." },
+        { examples.regions != RegionsOfExamples::none,
+          key
+              + "Examples/Regions = auto is not for shells yet. Set it to none; Weights per region "
+                "gives material ids weights of their own." },
         { examples.acts_on != ActsOn::all || examples.elasticity().is_own(),
           key
               + "Examples/Acts on, Example modulus and Example Poisson ratio are of bodies with "

@@ -5,6 +5,7 @@
 #include <exemplar/body/handles.h>
 #include <exemplar/body/material.h>
 #include <exemplar/body/supports.h>
+#include <exemplar/body/weight_regions.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/run/inputs/inputs.h>
 
@@ -21,7 +22,7 @@ namespace Exemplar
     Material                         material;
     std::vector<double>              thicknesses = {}; ///< of a shell's triangles [m]
     std::vector<unsigned int>        patches; ///< patch of each cell, see Patches; empty: none
-    std::vector<std::vector<double>> shares;  ///< of Examples/Weight maps, a value a cell
+    std::vector<std::vector<double>> shares; ///< of Examples/Weight maps or Regions, a value a cell
     NamedPoses                       poses;
     NamedNodes                       nodes;     ///< of all selections, by their texts
     ObstacleSurfaces                 obstacles; ///< [m]; all of them in each process
@@ -52,6 +53,7 @@ namespace Exemplar
     std::shared_ptr<const MadeOfSurfaces>   made;      ///< see Inputs
     std::optional<std::vector<std::string>> geo_walls; ///< see Inputs
     std::shared_ptr<const Inputs>           inputs; ///< null unless Output/Space error needs them
+    std::vector<WeightRegion>               weight_regions = {}; ///< of Examples/Regions = auto
   };
 
   /// The body of a scene, or the part of it that a process has.
@@ -61,6 +63,10 @@ namespace Exemplar
     BodyFields      fields;
     UndividedInputs undivided;
   };
+
+  /// The regions of Examples/Regions = auto, whose shares the fields get; without that key nothing.
+  std::vector<WeightRegion>
+  find_regions(const ExampleParameters &examples, const Mesh &mesh, BodyFields &fields);
 
   /// The whole body of a scene from its inputs. Throws UserError if they do not fit the scene.
   BodyInputs

@@ -63,6 +63,7 @@ namespace Exemplar
     const std::shared_ptr<const SurfaceMesh>      surface;  ///< null unless it is needed
     const std::vector<CarriedSurface>             carried;  ///< of Mesh/Carry
     const std::shared_ptr<const Inputs> inputs; ///< null unless Output/Space error needs them
+    const std::vector<WeightRegion>     weight_regions; ///< of Examples/Regions = auto; at the root
   };
 
   /// The constraints of the body, and its free degrees of freedom.
