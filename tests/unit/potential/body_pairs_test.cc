@@ -41,14 +41,14 @@ namespace Exemplar::Testing
         surface.edges.clear();
         surface.nodes.clear();
         for (const unsigned int node : { 0U, 1U, 2U, 3U })
-          surface.nodes.push_back({ node, 0.5, 300. });
+          surface.nodes.push_back({ node, 0.5, 0., 300. });
         if (kind == BodyPairKind::edge_edge)
         {
-          surface.edges.push_back({ { { 0, 1 } }, 1.2, 0.4, 200. });
-          surface.edges.push_back({ { { 2, 3 } }, 0.7, 0.2, 300. });
+          surface.edges.push_back({ { { 0, 1 } }, 1.2, 0.4, 0., 200. });
+          surface.edges.push_back({ { { 2, 3 } }, 0.7, 0.2, 0., 300. });
         }
         else
-          surface.triangles.push_back({ { { 0, 1, 2 } }, 0, 0.8, 400. });
+          surface.triangles.push_back({ { { 0, 1, 2 } }, 0, 0.8, 0., 400. });
       }
 
       std::vector<BodyTouch>
