@@ -63,7 +63,7 @@ namespace Exemplar::Testing
 
     /// A bar of jelly as heavy as lead, of which one step is made, in which nothing but masses matters.
     std::string
-    falling_bar(const double density, const std::string &mass_matrix)
+    dropped_bar(const double density, const std::string &mass_matrix)
     {
       return "set Scene = dynamic\nsubsection Mesh\n set Generator = box\n set Box size = 4, 1, 1\n"
              " set Box cells = 12, 3, 3\nend\n"
@@ -87,11 +87,11 @@ namespace Exemplar::Testing
 
     TEST(UnitReview, CoupledMassesThatFallFurtherThanFreelyAreNamed)
     {
-      EXPECT_TRUE(warns_of_coupled_masses(Scene(falling_bar(1e5, "consistent"))));
-      EXPECT_TRUE(warns_of_coupled_masses(Scene(falling_bar(13., "consistent"))));
+      EXPECT_TRUE(warns_of_coupled_masses(Scene(dropped_bar(1e5, "consistent"))));
+      EXPECT_TRUE(warns_of_coupled_masses(Scene(dropped_bar(13., "consistent"))));
       EXPECT_FALSE(
-          warns_of_coupled_masses(Scene(falling_bar(12., "consistent")))); // rho g L / E .96
-      EXPECT_FALSE(warns_of_coupled_masses(Scene(falling_bar(1e5, "lumped"))));
+          warns_of_coupled_masses(Scene(dropped_bar(12., "consistent")))); // rho g L / E .96
+      EXPECT_FALSE(warns_of_coupled_masses(Scene(dropped_bar(1e5, "lumped"))));
     }
 
     TEST(UnitReview, CoupledMassesFallFurtherThanFreelyBesideAHandle)
@@ -100,7 +100,7 @@ namespace Exemplar::Testing
            { std::tuple<const char *, double, double>{ "consistent", 1.5, 1.6 },
              { "lumped", 0.95, 1.0001 } })
       {
-        Scene          scene(falling_bar(1e5, mass_matrix));
+        Scene          scene(dropped_bar(1e5, mass_matrix));
         const FESpace &space = scene.problem.body.fe_space;
         const Vector   rest = space.rest_positions(), end = scene.solve().positions;
         double         fallen = 0.;
