@@ -34,7 +34,7 @@ namespace Exemplar::Testing
 
     TEST(PartsOfGraph, DivideWhereThePassIsLow)
     {
-      EXPECT_EQ(parts_of_row({ { 1., 4., 1., 4., 1., 0. } }), (Parts{ 1, 1, 1, 0, 0, 0 }));
+      EXPECT_EQ(parts_of_row({ { 1., 4., 1., 4., 1., 0. } }), (Parts{ 0, 0, 0, 1, 1, 1 }));
       EXPECT_EQ(parts_of_row({ { 1., 4., 2., 4., 1., 0. } }), (Parts(6, 0))); // sqrt(1/2) > .6
     }
 
