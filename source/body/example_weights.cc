@@ -33,12 +33,12 @@ namespace Exemplar
 
     /// The parts of the ridge in regions that were found; empty without. Many examples strain a region little or
     /// not at all, so that their weights make no difference there, and take part in what is next to it. So the ridge
-    /// is a hundred-thousandth of what the example that strains the region most costs, and rest has hardly any: it is what
+    /// is a ten-thousandth of what the example that strains the region most costs, and rest has hardly any: it is what
     /// remains. Regions stay as they were found while poses change, and so does this.
     std::vector<double>
     parts_in_found_regions(const ExampleParameters &parameters, const ExampleTargets &targets)
     {
-      constexpr double part_of_rest = 1e-3, part_of_strains = 1e4; // times 1e-9 sum E V
+      constexpr double part_of_rest = 1e-3, part_of_strains = 1e5; // times 1e-9 sum E V
       if (!parameters.finds_regions() || targets.n_regions() == 1 || !parameters.are_bounded())
         return {};
       const std::vector<double> measures = targets.measures_of_weights();
