@@ -4,7 +4,7 @@
 #include <exemplar/potential/contact_forces.h>
 #include <exemplar/potential/nodal_vectors.h>
 
-#include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/lapack_templates.h>
 
 #include <algorithm>
 #include <cmath>
@@ -151,26 +151,56 @@ namespace Exemplar
       return result;
     }
 
+    constexpr unsigned int most_rows = 12; ///< of the blocks of a pair
+
+    /// The eigenvalues of a symmetric matrix between `lower` and 0, and their vectors, by columns. LAPACK is called without
+    /// deal.II, which prints an error for vectors of eigenvalues that are 0 but for rounding and have not converged: they do no harm.
+    struct NegativeEigenvalues
+    {
+      NegativeEigenvalues(const unsigned int                         n_rows,
+                          std::array<double, most_rows * most_rows> &matrix,
+                          const double                               lower)
+      {
+        const dealii::types::blas_int rows = n_rows, one = 1, n_work = work.size();
+        const double                  upper = 0., accuracy = 0.;
+        dealii::types::blas_int       info = 0;
+        dealii::syevx("V", "V", "U", &rows, matrix.data(), &rows, &lower, &upper, &one, &one,
+                      &accuracy, &n, values.data(), vectors.data(), &rows, work.data(), &n_work,
+                      integers.data(), failed.data(), &info);
+      }
+
+      dealii::types::blas_int                   n = 0;
+      std::array<double, most_rows>             values{};
+      std::array<double, most_rows * most_rows> vectors{};
+
+    private:
+      std::array<double, 40 * most_rows>                 work;
+      std::array<dealii::types::blas_int, 5 * most_rows> integers;
+      std::array<dealii::types::blas_int, most_rows>     failed;
+    };
+
     /// The nearest matrix without negative eigenvalues.
     void
     project(ContactHessian &blocks, const unsigned int n_nodes)
     {
-      const unsigned int               n = 3 * n_nodes;
-      dealii::LAPACKFullMatrix<double> matrix(n, n);
-      double                           greatest = 0.;
+      const unsigned int                        n = 3 * n_nodes;
+      std::array<double, most_rows * most_rows> matrix{};
+      double                                    greatest = 0.;
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < n; ++j)
         {
-          matrix(i, j) = blocks[i / 3][j / 3][i % 3][j % 3];
-          greatest     = std::max(greatest, std::abs(matrix(i, j)));
+          const double entry = blocks[i / 3][j / 3][i % 3][j % 3];
+          matrix[i + n * j]  = entry;
+          greatest           = std::max(greatest, std::abs(entry));
         }
-      dealii::Vector<double>     values;
-      dealii::FullMatrix<double> vectors;
-      matrix.compute_eigenvalues_symmetric(-2. * n * greatest, 0., 0., values, vectors);
-      for (unsigned int e = 0; e < values.size(); ++e)
+      if (greatest == 0.)
+        return;
+      const NegativeEigenvalues negative(n, matrix, -2. * n * greatest);
+      const auto               &v = negative.vectors;
+      for (int e = 0; e < negative.n; ++e)
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
-            blocks[i / 3][j / 3][i % 3][j % 3] -= values[e] * vectors(i, e) * vectors(j, e);
+            blocks[i / 3][j / 3][i % 3][j % 3] -= negative.values[e] * v[i + n * e] * v[j + n * e];
     }
   } // namespace
 
