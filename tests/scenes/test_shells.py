@@ -167,7 +167,7 @@ class Refused(SceneTest):
     def test_poses_without_area_or_strain(self):
         for key in ("Examples/Pose functions", "Initial/Pose function"):
             self.refuse("8 of 8 triangles have no area", {key: "0*x; y; z"})
-            self.refuse("triangles have no area", {key: "if(x < .3, 0, x); y; z"})
+            self.refuse("triangles have no area", {key: "x < .3 ? 0 : x; y; z"})
         flat, faces = strip(1., .25, 4, 1)
         self.write("rest.obj", obj_text(flat, faces))
         for pose, words in (("z; y; -x", "moved rigidly"), ("1e3*x; 1e3*y; z", "times as large"), ("x; y; 0.1*x^2", "")):
