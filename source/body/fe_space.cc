@@ -10,8 +10,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 namespace Exemplar
 {
   namespace
@@ -82,15 +80,11 @@ namespace Exemplar
                      const Mesh                          &mesh,
                      const std::string                   &key)
     {
-      constexpr double collapsed = 1e-10; // twice the area over the square of the longest edge
       std::vector<std::size_t> elements;
       for (unsigned int t = 0; t < mesh.get_triangles().size(); ++t)
       {
         const auto &[a, b, c] = mesh.get_triangles()[t];
-        const auto   ab = places[b] - places[a], ac = places[c] - places[a];
-        const double longest
-            = std::max({ ab.norm_square(), ac.norm_square(), (ab - ac).norm_square() });
-        if (!(dealii::cross_product_3d(ab, ac).norm() > collapsed * longest))
+        if (!has_area(places[a], places[b], places[c]))
           elements.push_back(mesh.element_number(t));
       }
       if (!elements.empty())

@@ -12,10 +12,17 @@
 
 namespace Exemplar
 {
+  bool
+  has_area(const dealii::Point<3> &a, const dealii::Point<3> &b, const dealii::Point<3> &c)
+  {
+    constexpr double thin = 1e-10; // twice the area over the square of the longest edge
+    const auto       ab = b - a, ac = c - a;
+    const double longest = std::max({ ab.norm_square(), ac.norm_square(), b.distance_square(c) });
+    return dealii::cross_product_3d(ab, ac).norm() > thin * longest;
+  }
+
   namespace
   {
-    constexpr double thin_triangle = 1e-10; ///< twice the area over the square of the longest edge
-
     /// An edge of a triangle.
     struct TriangleEdge
     {
@@ -58,11 +65,7 @@ namespace Exemplar
       for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       {
         const auto &[a, b, c] = mesh.triangles[t];
-        const auto ab         = contents.nodes[b] - contents.nodes[a],
-                   ac         = contents.nodes[c] - contents.nodes[a];
-        const double longest  = std::max({ ab.norm_square(), ac.norm_square(),
-                                           contents.nodes[b].distance_square(contents.nodes[c]) });
-        if (!(dealii::cross_product_3d(ab, ac).norm() > thin_triangle * longest))
+        if (!has_area(contents.nodes[a], contents.nodes[b], contents.nodes[c]))
           thin.push_back(mesh.element_numbers[t]);
       }
       if (!thin.empty())

@@ -11,6 +11,10 @@
 
 namespace Exemplar
 {
+  /// Whether a triangle is more than a line or a point, but for rounding; false for places that are no numbers.
+  bool
+  has_area(const dealii::Point<3> &a, const dealii::Point<3> &b, const dealii::Point<3> &c);
+
   /// Checks of a mesh on plain arrays, which report errors with the numbers of its file. All throw
   /// UserError. In the order below each may rely on the ones before.
 
