@@ -2,8 +2,8 @@
 """Hold all files to a second compiler: Clang reads what GCC has compiled, and compiles nothing.
 
 Usage: python3 tests/checks/syntax.py BUILD_DIRECTORY
-Takes the commands of compile_commands.json there, without the headers that GCC has precompiled and without what Clang does not
-know. Status 77 where there is no Clang.
+Takes the commands of compile_commands.json there, without what Clang does not know. The headers that GCC has precompiled Clang
+precompiles for itself. Status 77 where there is no Clang.
 """
 import concurrent.futures
 import json
@@ -11,27 +11,35 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 # GCC's own options, beside its warnings
 OF_GCC = ("-fno-unroll-all-loops", "-funroll-all-loops", "-mmove-max=256", "-mstore-max=256", "-Winvalid-pch", "-c")
 
+EMPTY = "cmake_pch.hxx.cxx"  # what CMake compiles to precompile the header beside it
 
-def arguments_of(command):
-    """What Clang is given for a command of GCC."""
+
+def arguments_of(command, headers):
+    """What Clang is given for a command of GCC; `headers`, if any, stands for those that GCC has precompiled."""
     words = shlex.split(command)
     compiler = next(i for i, word in enumerate(words) if "++" in Path(word).name)
     kept, words = [], iter(words[compiler + 1:])
     for word in words:
-        if word in ("-o", "-include"):
+        if word == "-o":
             next(words)
+        elif word == "-include":
+            next(words)
+            kept += ["-include-pch", str(headers)] if headers else []
+        elif word.endswith(EMPTY):
+            kept.append(word.removesuffix(".cxx"))
         elif word not in OF_GCC and not word.startswith("-Wno-"):
             kept.append(word)
-    return ["clang++", *kept, "-fsyntax-only", "-w"]
+    return ["clang++", *kept, "-w"]
 
 
-def errors_of(entry):
-    done = subprocess.run(arguments_of(entry["command"]), cwd=entry["directory"], text=True, capture_output=True)
+def errors_of(entry, headers, *what):
+    done = subprocess.run([*arguments_of(entry["command"], headers), *what], cwd=entry["directory"], text=True, capture_output=True)
     return done.stderr if done.returncode else ""
 
 
@@ -39,13 +47,16 @@ def main():
     if shutil.which("clang++") is None:
         print("Clang is not installed.")
         return 77
-    entries = [entry for entry in json.loads(Path(sys.argv[1], "compile_commands.json").read_text())
-               if not entry["file"].endswith(("cmake_pch.hxx.cxx", "headers.cc"))]
-    with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
-        errors = [text for text in pool.map(errors_of, entries) if text]
+    entries = [entry for entry in json.loads(Path(sys.argv[1], "compile_commands.json").read_text()) if not entry["file"].endswith("headers.cc")]
+    precompiled = [entry for entry in entries if entry["file"].endswith(EMPTY)]
+    units = [entry for entry in entries if entry not in precompiled]
+    with tempfile.TemporaryDirectory() as directory, concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
+        headers = Path(directory, "headers.pch")
+        errors = [errors_of(entry, None, "-o", str(headers)) for entry in precompiled]
+        errors = [text for text in (*errors, *pool.map(lambda unit: errors_of(unit, headers, "-fsyntax-only"), units)) if text]
     print("\n".join(errors))
-    print(f"{len(entries)} units, {len(errors)} of them with errors")
-    return 1 if errors or not entries else 0
+    print(f"{len(units)} units, {len(errors)} errors of Clang")
+    return 1 if errors or not units else 0
 
 
 if __name__ == "__main__":

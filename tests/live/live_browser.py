@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chromium without a window, for tests of pages. What needs it is left out where Chromium or selenium is not installed."""
 import functools
+import os
 import shutil
 import tempfile
 import unittest
@@ -16,6 +17,7 @@ except ImportError:
     webdriver = None
 
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+PICTURES = "SCREENSHOTS" in os.environ  # which are for people; else a quarter of the pixels is a third less to compute
 needs_browser = unittest.skipUnless(webdriver and CHROMIUM and DRIVER, "chromium, chromedriver or selenium is not installed")
 wait = functools.partial(wait_until, seconds=60, pause=.1)  # as each look is work for the browser
 
@@ -25,10 +27,10 @@ def browser(width=1280, height=800, dark=False, phone=False, downloads=None):
     options = webdriver.ChromeOptions()
     options.binary_location = CHROMIUM
     for argument in ("--headless=new", "--no-sandbox", "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", f"--window-size={width},{height}",
-                     f"--blink-settings=preferredColorScheme={0 if dark else 1}"):
+                     f"--force-device-scale-factor={1 if PICTURES else .5}", f"--blink-settings=preferredColorScheme={0 if dark else 1}"):
         options.add_argument(argument)
     if phone:
-        options.add_experimental_option("mobileEmulation", {"deviceMetrics": {"width": width, "height": height, "pixelRatio": 2.}})
+        options.add_experimental_option("mobileEmulation", {"deviceMetrics": {"width": width, "height": height, "pixelRatio": 1.}})
     if downloads:
         options.add_experimental_option("prefs", {"download.default_directory": str(downloads)})
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
