@@ -149,7 +149,14 @@ namespace Exemplar
     check_length(distance, "Obstacles/Distance", "m");
     check_length(slip_speed, "Obstacles/Slip speed", "m/s");
     for (const ObstacleParameters &obstacle : named)
+    {
       obstacle.check();
+      for (const ObstacleParameters &other : named)
+        if (other.name == obstacle.name + "_torque")
+          throw UserError("Obstacles/Names has " + obstacle.name + " and " + other.name
+                          + ", of which both have columns contact_" + other.name
+                          + "_x to z in statistics.csv. Give one of them another name.");
+    }
     if (free == FreeBodies::friction && !named.empty() && !has_friction())
       throw UserError("Obstacles/Free = friction, but no obstacle has friction. Set "
                       "Obstacles/NAME/Friction of one, or Obstacles/Free = weak springs.");

@@ -248,11 +248,10 @@ namespace Exemplar
   }
 
   double
-  rounding_of_distance(const Vector &positions)
+  rounding_of_distance(const Gap &gap, const double size)
   {
     // both points are rounded
-    return 4. * std::numeric_limits<double>::epsilon()
-           * max_entry(positions.begin(), positions.end());
+    return 4. * std::numeric_limits<double>::epsilon() * std::max(size, gap.coordinates);
   }
 
   double
@@ -260,18 +259,19 @@ namespace Exemplar
   {
     if (gaps.empty())
       return 0.;
-    const double of_distance = rounding_of_distance(positions);
-    // nearer the whole force is rounding, and nothing is solved
-    const double        least_distance = 1e4 * of_distance;
+    constexpr double least_distance
+        = 1e4; ///< roundings: nearer the whole force is rounding, and nothing is solved
+    const double        size = max_entry(positions.begin(), positions.end());
     std::vector<double> squares(positions.size() / 3);
     for (const Gap &gap : gaps)
-      if (gap.distance > least_distance)
-      {
-        const double force
-            = of_distance * Barrier{ gap.stiffness, gap.width }.curvature(gap.distance);
-        for (unsigned int i = 0; i < gap.n_nodes; ++i)
-          squares[gap.nodes[i]] += std::pow(gap.coefficients[i] * force, 2);
-      }
+    {
+      const double rounding = rounding_of_distance(gap, size);
+      if (gap.distance <= least_distance * rounding)
+        continue;
+      const double force = rounding * Barrier{ gap.stiffness, gap.width }.curvature(gap.distance);
+      for (unsigned int i = 0; i < gap.n_nodes; ++i)
+        squares[gap.nodes[i]] += std::pow(gap.coefficients[i] * force, 2);
+    }
     return std::sqrt(max_entry(squares));
   }
 

@@ -236,6 +236,20 @@ namespace Exemplar
     return own == nullptr ? obstacles.width : own->width;
   }
 
+  double
+  ContactSearch::greatest_coordinate(const ContactPair &pair, const PairCorners &x) const
+  {
+    AxisBox box;
+    if (pair.kind != PairKind::node_half_space)
+      box = box_of_obstacle(pair);
+    for (unsigned int i = 0; i < x.n; ++i)
+      box.add(x.places[i]);
+    double result = 0.;
+    for (unsigned int c = 0; c < 3; ++c)
+      result = std::max({ result, std::abs(box.low[c]), std::abs(box.high[c]) });
+    return result;
+  }
+
   Contact
   ContactSearch::contact(const ContactPair  &pair,
                          const PairCorners  &x,
@@ -265,12 +279,13 @@ namespace Exemplar
     result.at.nearest.way = R * at.nearest.way;
     for (unsigned int k = 0; k < at.nearest.n_free; ++k)
       result.at.nearest.dv[k] = R * at.nearest.dv[k];
-    Gap &gap      = result.gap;
-    gap.n_nodes   = x.n;
-    gap.normal    = result.at.normal;
-    gap.distance  = at.distance;
-    gap.stiffness = result.part.m * result.full_stiffness;
-    gap.width     = width(pair);
+    Gap &gap        = result.gap;
+    gap.n_nodes     = x.n;
+    gap.normal      = result.at.normal;
+    gap.distance    = at.distance;
+    gap.stiffness   = result.part.m * result.full_stiffness;
+    gap.width       = width(pair);
+    gap.coordinates = greatest_coordinate(pair, x);
     SpaceVector3 point;
     for (unsigned int i = 0; i < x.n; ++i)
     {

@@ -191,7 +191,8 @@ namespace Exemplar
       if (room.is_crossed || room.least < obstacles.width)
         throw SolverFailure("Obstacles/" + obstacle.name()
                             + " appears at t = " + shortest_text(at.time)
-                            + " s where the body is, or nearer to it than the distance from which "
+                            + " s where the body is, near " + place_text(room.place)
+                            + " m, or nearer to it than the distance from which "
                               "it pushes. Change its From, or where it is then.");
       has_appeared[i] = 1;
     }
@@ -216,6 +217,7 @@ namespace Exemplar
           {
             const SpaceVector3 x     = at_node(end.positions, gap.nodes[i]);
             const SpaceVector3 force = -gradient[i];
+            sums.has_touched         = true;
             sums.force += force;
             sums.torque += dealii::cross_product_3d(x - standing[obstacle].pose.place, force);
             sums.work += force * (x - at_node(step.start, gap.nodes[i]));
@@ -281,6 +283,16 @@ namespace Exemplar
                          dealii::Point<3>(all[3], all[4], all[5]), all[6], all[7] });
     }
     return result;
+  }
+
+  std::vector<std::string>
+  ObstacleTerm::untouched() const
+  {
+    std::vector<std::string> names;
+    for (unsigned int i = 0; i < sums_of.size(); ++i)
+      if (!free_dofs->exchange().any(sums_of[i].has_touched))
+        names.push_back(obstacles.all[i].name());
+    return names;
   }
 
   void

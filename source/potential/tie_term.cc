@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/long_vectors.h>
+#include <exemplar/base/errors.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/potential/nodal_vectors.h>
 #include <exemplar/potential/tie_term.h>
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +16,8 @@ namespace Exemplar
   namespace
   {
     constexpr double rigid_factor = 1e4; ///< of the softer side's stiffness
+    constexpr double most_of_rigid
+        = 1e3; ///< of a rigid tie's stiffness: beyond, the rounding of positions is a force
   }
 
   TieTerm::TieTerm(const Ties &ties, const Material &material)
@@ -60,9 +66,14 @@ namespace Exemplar
       {
         const double softer
             = std::min(material.youngs_modulus(tie.own_cell), material.youngs_modulus(tie.cell));
-        stiffness.back().push_back(group.stiffness > 0.
-                                       ? group.stiffness * tie.area
-                                       : rigid_factor * softer * std::sqrt(tie.area));
+        const double rigid = rigid_factor * softer * std::sqrt(tie.area);
+        if (group.stiffness * tie.area > most_of_rigid * rigid)
+          throw UserError(fmt::format("Ties/{}/Stiffness = {} is so great that forces would be the "
+                                      "rounding of positions. Allowed: rigid, or at most "
+                                      "{} N/m^3, a thousand times as stiff.",
+                                      group.name, short_text(group.stiffness),
+                                      short_text(most_of_rigid * rigid / tie.area)));
+        stiffness.back().push_back(group.stiffness > 0. ? group.stiffness * tie.area : rigid);
       }
     }
   }

@@ -157,8 +157,8 @@ namespace Exemplar
         sums->force_scale[gap.nodes[i]] += gradient[i].norm();
       }
     };
-    // a light sheet that bends easily has little energy beside the way of these forces; solids have much
-    const double of_distance = surface.has_inside() ? 0. : rounding_of_distance(at.positions);
+    // what is light, and hard to press, has little energy beside that of these forces along the rounding of their distances
+    const double size = max_entry(at.positions.begin(), at.positions.end());
     visit_touches(at.positions, 1.,
                   [&](const Touch &touch)
                   {
@@ -166,8 +166,8 @@ namespace Exemplar
                     if (!(touch.gap.distance > 0.)) // an infinite energy has no force
                       return;
                     add_gradient(touch.gap, gradient_of(touch));
-                    if (of_distance > 0.)
-                      sums->rounding_energy -= of_distance * slope_of(touch.gap);
+                    sums->rounding_energy
+                        -= rounding_of_distance(touch.gap, size) * slope_of(touch.gap);
                   });
     for (const Rubbing &rub : rubbing_step().rubbing)
     {

@@ -13,6 +13,7 @@
 #include <exemplar/run/output/run_writer.h>
 #include <exemplar/run/problem/idle_review.h>
 #include <exemplar/run/problem/motion_review.h>
+#include <exemplar/run/problem/obstacle_start.h>
 #include <exemplar/run/problem/problem.h>
 #include <exemplar/run/problem/scene_review.h>
 #include <exemplar/run/problem/state_review.h>
@@ -148,6 +149,7 @@ namespace Exemplar
       progress.finish();
       log.warn(review.warnings());
       log.warn(missed_example_warnings(problem));
+      log.warn(idle_obstacle_warnings(problem));
       if (const std::string starts = starts_text(problem); !starts.empty())
         log.say(starts);
       writer.finish(status_name(problem.parameters.solver.method == Method::one_pass

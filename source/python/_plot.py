@@ -11,7 +11,9 @@ LIGHT = np.array([-0.4, -0.7, 0.6])
 
 
 def surface(cells):
-    """Triangles (k, 3) of nodes that belong to one cell alone, and these cells (k,)."""
+    """Triangles (k, 3) of nodes that belong to one cell alone, or all of a shell, and these cells (k,)."""
+    if cells.shape[1] == 3:
+        return cells, np.arange(len(cells))
     faces = cells[:, FACES].reshape(-1, 3)
     _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
     outer = np.sort(first[count == 1])

@@ -331,9 +331,10 @@ namespace Exemplar
         break;
       }
     }
+    const std::string limit = potential.limit_to(time, from, way);
     throw SolverFailure(fmt::format(
         "At t = {:.6g} s {} and {} meet, and nothing gives way. Move the one or the other another "
         "way, or let go before.",
-        now, held, potential.limit_to(time, from, way)));
+        now, held, limit.empty() ? "what it may not pass" : limit));
   }
 } // namespace Exemplar

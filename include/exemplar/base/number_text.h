@@ -35,6 +35,14 @@ namespace Exemplar
     return buffer;
   }
 
+  /// A place "(x, y, z)" by three digits a coordinate, for messages.
+  template <typename Place>
+  std::string
+  place_text(const Place &x)
+  {
+    return "(" + short_text(x[0]) + ", " + short_text(x[1]) + ", " + short_text(x[2]) + ")";
+  }
+
   /// The number that the whole text represents: no blanks, no sign +, no infinity, no NaN, and
   /// nothing outside the range of the type. Fractions and powers of ten only where the type has
   /// them.

@@ -49,9 +49,9 @@ namespace Exemplar
                const Vector         &displacement,
                Vector               &field);
 
-  /// The rounding of a distance between points at these positions [m].
+  /// The rounding of the distance of a gap of a body whose greatest coordinate is `size` [m].
   double
-  rounding_of_distance(const Vector &positions);
+  rounding_of_distance(const Gap &gap, double size);
 
   /// The greatest force at a node, at these positions, that is nothing but the rounding of distances [N].
   double

@@ -192,6 +192,10 @@ namespace Exemplar
     double
     offset_of(const ContactPair &pair) const;
 
+    /// Of both parts of a pair, in the obstacle's axes [m].
+    double
+    greatest_coordinate(const ContactPair &pair, const PairCorners &x) const;
+
     /// The distance of a pair with a half space [m].
     double
     height(const ContactPair &pair, const SpaceVector3 &place) const;

@@ -21,6 +21,8 @@ namespace Exemplar
     double                      distance  = 0.; ///< [m]
     double                      stiffness = 0.; ///< k [N]
     double                      width     = 0.; ///< d_hat [m]
+    double                      coordinates
+        = 0.; ///< greatest one beside the nodes' own that the distance was made of [m]
     double friction   = 0.; ///< coefficient times the lagged normal force [N]; 0: there is none
     double slip_width = 0.; ///< e [m]
     dealii::Tensor<1, 3> friction_normal; ///< the lagged normal, of length 1

@@ -138,6 +138,10 @@ namespace Exemplar
     std::vector<ObstacleReport>
     report() const;
 
+    /// The names of obstacles that were near where no step ended. All processes must call this.
+    std::vector<std::string>
+    untouched() const;
+
     /// The pairs that are nearer than `range` times their width, of the obstacles that are there.
     std::vector<Contact>
     contacts(const Vector &positions, double range = 1.) const;
@@ -181,15 +185,16 @@ namespace Exemplar
     /// What an obstacle has done at the end of a step, and since the beginning.
     struct Sums
     {
-      SpaceVector3 force, torque; ///< on the body [N], [N m]
-      double       work = 0.;     ///< on the body [J]
-      double       heat = 0.;     ///< of friction [J]
+      SpaceVector3 force, torque;       ///< on the body [N], [N m]
+      double       work        = 0.;    ///< on the body [J]
+      double       heat        = 0.;    ///< of friction [J]
+      bool         has_touched = false; ///< whether it was near where any step ended
 
       template <typename Archive>
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
-        archive &force &torque &work &heat;
+        archive &force &torque &work &heat &has_touched;
       }
     };
 
@@ -250,10 +255,12 @@ namespace Exemplar
                 ShareDerivatives   &by_shares,
                 ObstacleSlopes     &sums) const;
 
+    /// In the step, or outside of one at the time that is set.
     bool
     is_there(const unsigned int obstacle) const
     {
-      return step.there.empty() || step.there[obstacle] != 0;
+      return step.there.empty() ? obstacles.all[obstacle].is_there(time)
+                                : step.there[obstacle] != 0;
     }
 
     const Obstacles              &obstacles;

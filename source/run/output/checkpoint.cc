@@ -3,6 +3,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/sealed_file.h>
 #include <exemplar/run/output/checkpoint.h>
+#include <exemplar/run/problem/obstacle_start.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
@@ -55,7 +56,7 @@ namespace Exemplar
   namespace
   {
     /// The first line. The number is increased with each change of the format.
-    const std::string format = "exemplar checkpoint 12";
+    const std::string format = "exemplar checkpoint 13";
 
     const std::string without_resume = " Run the scene without --resume.";
 
@@ -169,5 +170,6 @@ namespace Exemplar
                                        checkpoint.solver_memory);
                    return true;
                  });
+    check_resumed_obstacles(problem);
   }
 } // namespace Exemplar

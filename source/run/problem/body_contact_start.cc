@@ -124,15 +124,6 @@ namespace Exemplar
       const Vector         &positions;
     };
 
-    std::string
-    place_text(const SpaceVector3 &x)
-    {
-      return "(" + short_text(x[0]) + ", " + short_text(x[1]) + ", " + short_text(x[2]) + ")";
-    }
-  } // namespace
-
-  namespace
-  {
     /// What the header of a run says of the selections that never touch each other. Throws UserError for one without a node of the surface.
     std::string
     left_out_note(const BodyContacts &contacts, const ContactSurface &surface)
@@ -212,5 +203,22 @@ namespace Exemplar
     for (const StandingSurface::Near &near : at_start.crossing_pairs())
       if (contacts.width_of(near.pair) > 0.)
         refuse(near);
+  }
+
+  std::string
+  crossing_pose_warning(const BodyContacts   &contacts,
+                        const ContactSurface &surface,
+                        const Vector         &pose,
+                        const std::string    &name)
+  {
+    for (const StandingSurface::Near &near :
+         StandingSurface(contacts, surface, pose).crossing_pairs())
+      if (contacts.width_of(near.pair) > 0.)
+        return name + ": the surface meets itself or another piece in this pose, near "
+               + place_text(near.place)
+               + " m, but not at rest. With Contact the body cannot come all of the way to it; a "
+                 "pose "
+                 "without this is followed better.";
+    return "";
   }
 } // namespace Exemplar

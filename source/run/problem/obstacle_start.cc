@@ -19,15 +19,6 @@ namespace Exemplar
     // how far it is then from the body, a part of the distance from which obstacles push
     constexpr double part_of_width = 1e-2;
 
-    std::string
-    text_of(const SpaceVector3 &x)
-    {
-      std::string text;
-      for (unsigned int c = 0; c < 3; ++c)
-        text += (c == 0 ? "(" : ", ") + short_text(x[c]);
-      return text + ")";
-    }
-
     /// An obstacle of a scene and the body as it begins.
     class ObstacleStart
     {
@@ -61,7 +52,15 @@ namespace Exemplar
           by = least_set_back(first, most);
         obstacle.set_back(by, first.outwards);
         return fmt::format("Obstacles/{} touches the body near {} m: it is set back by {} m",
-                           obstacle.name(), text_of(first.place), short_text(by));
+                           obstacle.name(), place_text(first.place), short_text(by));
+      }
+
+      /// Throws UserError for a body that has gone on to where the obstacle is.
+      void
+      refuse_what_is_inside()
+      {
+        if (const Clearance now = look(); now.least <= 0. || now.is_crossed)
+          refuse(now);
       }
 
       /// Let pairs that are near keep their distances as widths.
@@ -127,8 +126,10 @@ namespace Exemplar
       [[noreturn]] void
       refuse(const Clearance &first) const
       {
-        const std::string what = "The body begins inside of Obstacles/" + obstacle.name()
-                                 + ", near " + text_of(first.place) + " m";
+        const std::string what = fmt::format(
+            "{} inside of Obstacles/{}, near {} m",
+            time > 0. ? "At t = " + shortest_text(time) + " s the body is" : "The body begins",
+            obstacle.name(), place_text(first.place));
         if (first.is_crossed)
           throw UserError(what
                           + ". Move the obstacle (Shape), or the body (Initial/Pose), so that "
@@ -156,7 +157,7 @@ namespace Exemplar
         throw UserError(fmt::format(
             "{}, {} m deep. A displacement of the body by {} m would mend it, or one of "
             "the obstacle by the opposite.",
-            what, short_text(depth), text_of(way)));
+            what, short_text(depth), place_text(way)));
       }
 
       Obstacles            &obstacles;
@@ -170,21 +171,44 @@ namespace Exemplar
     };
   } // namespace
 
+  namespace
+  {
+    /// By how much an obstacle's form turns between two poses [rad]: half spaces with their normals, a ball not at all.
+    double
+    turn_of_form(const ObstacleShape &shape, const ObstaclePose &before, const ObstaclePose &after)
+    {
+      double     least_cosine = 1.;
+      const auto add          = [&](const SpaceVector3 &direction)
+      {
+        if (const double square = direction.norm_square(); square > 0.)
+          least_cosine = std::min(least_cosine, (before.rotation * direction)
+                                                    * (after.rotation * direction) / square);
+      };
+      for (const ObstacleShape::HalfSpace &half_space : shape.half_spaces)
+        add(half_space.normal);
+      for (const SpaceVector3 &vertex : shape.vertices)
+        add(vertex);
+      return std::acos(std::max(-1., least_cosine));
+    }
+  } // namespace
+
   void
   check_obstacle_motions(const Obstacles &obstacles, const Body &body, const TimeAxis &axis)
   {
     constexpr unsigned int max_samples = 10000;
     constexpr double       greatest    = 0.25; // of the diameter
+    constexpr double       most_turned = 1.;   // [rad]
     for (const Obstacle &obstacle : obstacles.all)
       for (unsigned int step = 1; step <= std::min(axis.n_steps(), max_samples); ++step)
       {
         const double begin = axis.time(step - 1), end = axis.time(step);
         if (!obstacle.is_there(begin))
           continue;
-        double     way     = (obstacle.pose(end).place - obstacle.pose(begin).place).norm();
-        const bool deforms = obstacle.deforms();
-        const auto before  = deforms ? obstacle.vertices(begin) : std::vector<SpaceVector3>();
-        const auto after   = deforms ? obstacle.vertices(end) : before;
+        const ObstaclePose from = obstacle.pose(begin), to = obstacle.pose(end);
+        double             way     = (to.place - from.place).norm();
+        const bool         deforms = obstacle.deforms();
+        const auto before = deforms ? obstacle.vertices(begin) : std::vector<SpaceVector3>();
+        const auto after  = deforms ? obstacle.vertices(end) : before;
         for (std::size_t v = 0; v < before.size(); ++v)
           way = std::max(way, (after[v] - before[v]).norm());
         if (way > greatest * body.mesh.diameter())
@@ -194,6 +218,11 @@ namespace Exemplar
               "{}.",
               obstacle.name(), short_text(way), shortest_text(end),
               short_text(body.mesh.diameter()), deforms ? "cache" : "Motion"));
+        if (const double turn = turn_of_form(obstacle.shape(), from, to); turn > most_turned)
+          throw UserError(fmt::format(
+              "Obstacles/{} turns by {} rad in the step to t = {} s, more than 1. Take smaller "
+              "steps (Time/Step or Time/Increments), or a slower Turn or track.",
+              obstacle.name(), short_text(turn), shortest_text(end)));
       }
   }
 
@@ -214,6 +243,31 @@ namespace Exemplar
         notes.push_back(done);
       start.keep_widths();
     }
+  }
+
+  void
+  check_resumed_obstacles(Problem &problem)
+  {
+    if (problem.actions.obstacles == nullptr)
+      return;
+    Obstacles &obstacles = *problem.actions.obstacles;
+    for (unsigned int i = 0; i < obstacles.all.size(); ++i)
+      if (obstacles.all[i].is_there(problem.state.time))
+        ObstacleStart(obstacles, i, *problem.actions.contact_surface, problem.body,
+                      problem.state.positions, problem.state.time)
+            .refuse_what_is_inside();
+  }
+
+  std::vector<std::string>
+  idle_obstacle_warnings(const Problem &problem)
+  {
+    std::vector<std::string> warnings;
+    if (const ObstacleTerm *const term = find_obstacle_term(problem))
+      for (const std::string &name : term->untouched())
+        warnings.push_back("No step ends near Obstacles/" + name
+                           + ": it does nothing. Look at its Shape, Motion, From and Until, or "
+                             "leave it out of Obstacles/Names.");
+    return warnings;
   }
 
   ObstacleTerm *

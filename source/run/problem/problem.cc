@@ -105,6 +105,7 @@ namespace Exemplar
     if (actions.body_contacts != nullptr)
       suit_body_contacts(*actions.body_contacts, *actions.contact_surface,
                          body.fe_space.rest_positions(), state.positions, actions.notes);
+    review_poses_in_contact();
     state.history = elastic->initial_history();
     start(state);
     check_start(*this);
@@ -122,6 +123,17 @@ namespace Exemplar
                                                time_axis.n_steps()));
       session->play(std::move(recorded.events), parameters.session);
     }
+  }
+
+  void
+  Problem::review_poses_in_contact()
+  {
+    for (unsigned int i = 0; actions.body_contacts != nullptr && i < examples.poses.size(); ++i)
+      if (std::string warning
+          = crossing_pose_warning(*actions.body_contacts, *actions.contact_surface,
+                                  examples.poses.pose(i), examples.poses.name(i));
+          !warning.empty())
+        actions.warnings.push_back(std::move(warning));
   }
 
   void
@@ -175,8 +187,17 @@ namespace Exemplar
       start(next);
     }
     const unsigned int factorizations_before = system.n_new_factorizations();
-    SolveReport        report = solver->solve(next, evaluation, interval.end, interval.size);
-    report.factorizations     = system.n_new_factorizations() - factorizations_before;
+    SolveReport        report;
+    try
+    {
+      report = solver->solve(next, evaluation, interval.end, interval.size);
+    }
+    catch (const SolverFailure &failure) // of a term with which the step cannot begin
+    {
+      report.status  = SolveStatus::failed;
+      report.failure = failure.what();
+    }
+    report.factorizations = system.n_new_factorizations() - factorizations_before;
     if (is_success(report.status))
     {
       if (actions.integrator != nullptr)

@@ -17,13 +17,6 @@ namespace Exemplar
 {
   namespace
   {
-    std::string
-    place_text(const SpaceVector &place)
-    {
-      return "(" + short_text(place[0]) + ", " + short_text(place[1]) + ", " + short_text(place[2])
-             + ")";
-    }
-
     /// The checks of one surface; each may rely on those before.
     class SurfaceCheck
     {

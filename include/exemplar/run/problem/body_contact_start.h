@@ -19,6 +19,13 @@ namespace Exemplar
                      const Vector             &rest_positions,
                      const Vector             &positions,
                      std::vector<std::string> &notes);
+
+  /// A sentence about a pose, which messages call `name`, where surfaces cross that do not at rest; empty: none do.
+  std::string
+  crossing_pose_warning(const BodyContacts   &contacts,
+                        const ContactSurface &surface,
+                        const Vector         &pose,
+                        const std::string    &name);
 } // namespace Exemplar
 
 #endif

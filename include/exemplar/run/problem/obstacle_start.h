@@ -7,7 +7,7 @@
 
 namespace Exemplar
 {
-  /// Throws UserError for an obstacle that goes more than a quarter of the body's diameter in a step.
+  /// Throws UserError for an obstacle that goes more than a quarter of the body's diameter in a step, or turns by more than 1 rad.
   void
   check_obstacle_motions(const Obstacles &obstacles, const Body &body, const TimeAxis &axis);
 
@@ -23,6 +23,15 @@ namespace Exemplar
                  std::vector<std::string> &notes);
 
   class Problem;
+
+  /// Throws UserError where the body of a run that goes on is inside of an obstacle, which may not be where it was. All processes must
+  /// call this.
+  void
+  check_resumed_obstacles(Problem &problem);
+
+  /// A sentence for each obstacle that was near the body where no step ended. All processes must call this.
+  std::vector<std::string>
+  idle_obstacle_warnings(const Problem &problem);
 
   /// The term of the obstacles in a problem's potential; null without obstacles.
   ObstacleTerm *

@@ -217,6 +217,10 @@ namespace Exemplar
     void
     refresh(unsigned int changed);
 
+    /// Warn of poses in which surfaces cross that must not.
+    void
+    review_poses_in_contact();
+
     /// Warn of tensions of fibres that are too great. Throws SolverFailure for negative ones.
     void
     review_tensions();
