@@ -24,11 +24,11 @@ STATIC = {"Scene": "static", "Time": {"Increments": 1}, "Mesh": {"Kind": "shell"
           "Handles": {"left": {"Select": "box -1 -1 -1 0.1 2 1"}, "right": {"Select": "box 0.9 -1 -1 2 2 1", "Slopes": "free"}},
           "Loads": {"Gravity": [.2, -.3, -2]}, "Examples": {"Importance": .8, "Weights": "additive", "Weight penalty": 0.5, "Bending importance": .9},
           "Solver": {"Tolerance": 1e-12, "Maximum iterations": 200}}
-DYNAMIC = {**STATIC, "Scene": "dynamic", "Time": {"Step": .02, "End": .3, "Mass damping": .3, "Stiffness damping": .01},
+DYNAMIC = {**STATIC, "Scene": "dynamic", "Examples": {**STATIC["Examples"], "Weights": "free"}, "Time": {"Step": .02, "End": .3, "Mass damping": .3, "Stiffness damping": .01},
            "Solver": {"Tolerance": 1e-12, "Method": "newton"}}
 STEPS = 5
 BY_POSITIONS = random.normal(size=(STEPS, *NODES.shape))
-BY_WEIGHTS = random.normal(size=(STEPS, 2))
+BY_WEIGHTS = random.normal(size=(STEPS, 3))
 
 
 def with_tips(pose):
@@ -51,7 +51,7 @@ class GradientsOfShells(unittest.TestCase):
         constants = {"young": young, "poisson": poisson, "density": density}
         problem.set_material(**{name: value for name, value in constants.items() if value is not None})
         for i, pose in enumerate(poses):
-            problem.set_pose(i, pose)
+            problem.set_pose(i + len(problem.weights) - len(poses), pose)
         for name, way in ("left", 0.), ("right", np.array([-.1, .02, .05])):
             problem.set_motion(name, lambda rest, t, way=way: way * np.sin(3 * t) + shift + 0 * rest)
         for name, value in attributes.items():
@@ -71,17 +71,18 @@ class GradientsOfShells(unittest.TestCase):
             start |= {"mass_damping": np.array(.3), "stiffness_damping": np.array(.01)}
         problem, trajectory = self.recorded(base, **start)
         n = len(trajectory)
-        found = trajectory.vjp(list(BY_POSITIONS[:n]), list(BY_WEIGHTS[:n]))
+        found = trajectory.vjp(list(BY_POSITIONS[:n]), list(BY_WEIGHTS[:n, :len(problem.weights)]))
         self.assertNotIn("rest_positions", found)
         if base["Scene"] == "static":
-            single = problem.vjp(BY_POSITIONS[0], BY_WEIGHTS[0])
+            single = problem.vjp(BY_POSITIONS[0], BY_WEIGHTS[0, :len(problem.weights)])
             np.testing.assert_allclose(single["thickness"], found["thickness"], rtol=1e-9)
-        self.assertGreater(np.array(problem.weights).min(), 1e-3)
+        self.assertFalse(found["weakly_active"])
+        self.assertGreater(np.abs(problem.weights).min(), 1e-3)  # so that none is at its bound
         found |= {"shift": found["handles"].sum(0), "thickness": found["thickness"].sum(), "poses": np.array(found["poses"])}
 
         def value(**changed):
             steps = self.recorded(base, **{**start, **changed})[1]
-            return (BY_POSITIONS[:n] * steps.positions).sum() + (BY_WEIGHTS[:n] * steps.weights).sum()
+            return (BY_POSITIONS[:n] * steps.positions).sum() + (BY_WEIGHTS[:n, :len(problem.weights)] * steps.weights).sum()
         for key in keys:
             at = np.array(start[key])
             size = .2 * np.abs(at).mean() or .01
