@@ -110,6 +110,13 @@ class GradientsOfShells(unittest.TestCase):
     def test_steps(self):
         self.hold_to_differences(DYNAMIC, (*self.keys, "mass_damping", "stiffness_damping"))
 
+    def test_correction(self):
+        loose = {**STATIC, "Solver": {**STATIC["Solver"], "Tolerance": 1e-2}}
+        found = [self.recorded(base)[0] for base in (STATIC, loose)]
+        exact, value = ((BY_POSITIONS[0] * problem.positions).sum() for problem in found)
+        self.assertGreater(abs(value - exact), 1e-9)
+        self.assertLess(abs(value + found[1].correction(BY_POSITIONS[0]) - exact), .1 * abs(value - exact))
+
     def test_what_is_refused(self):
         ball = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]], float), np.array([[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]])
         base = {**STATIC, "Material": {**STATIC["Material"], "Volume stiffness": 1e3},
