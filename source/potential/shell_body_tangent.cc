@@ -372,4 +372,23 @@ namespace Exemplar
     for (std::size_t i = 0; i < by_weights.size(); ++i)
       result.weight_gradient[i] += by_weights[i];
   }
+
+  void
+  ShellBody::add_exact_response(const Vector              &displacement,
+                                const Vector              &positions,
+                                const std::vector<double> &weights,
+                                Vector                    &gradient)
+  {
+    find_strains(positions, RotationUse::keep);
+    find_stresses(weights);
+    TriangleTangent tangent;
+    for (unsigned int t = 0; t < triangles.size(); ++t)
+    {
+      find_tangent(t, Tangent::exact, positions, tangent);
+      for (unsigned int p = 0; p < dofs[t].n; ++p)
+        for (unsigned int q = 0; q < dofs[t].n; ++q)
+          gradient[dofs[t].dofs[q]] += tangent.entries[lower(std::max(p, q), std::min(p, q))]
+                                       * displacement[dofs[t].dofs[p]];
+    }
+  }
 } // namespace Exemplar

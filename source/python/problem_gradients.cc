@@ -93,6 +93,8 @@ namespace Exemplar::Python
       result["poisson"] = numbers(*found.poisson);
     }
     result["density"] = numbers(found.density);
+    if (found.thickness)
+      result["thickness"] = numbers(*found.thickness);
     if (found.tension)
       result["fibre_tension"] = numbers(*found.tension);
     if (found.importance)
@@ -175,6 +177,7 @@ namespace Exemplar::Python
         "from its derivatives dJ_dx (n, 3) and dJ_dw (k,) there; None: zero. For any number of\n"
         "parameters it takes one linear system. The dictionary has, as arrays of their own,\n"
         "  young, poisson, density (m,), by cell\n"
+        "  thickness (m,)          by cell, of shells\n"
         "  fibre_tension (m,)      by cell, 0 where no fibres are active; with active fibres\n"
         "  importance              a float; with examples\n"
         "  poses                   a list of (n, 3), of all examples but the rest pose\n"

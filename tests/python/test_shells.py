@@ -85,8 +85,7 @@ class Shells(unittest.TestCase):
     def test_what_is_refused(self):
         problem = exemplar.Problem(SCENE, self.mesh)
         problem.step()
-        for call in (problem.energy, problem.gradient, lambda: problem.shape_gradients, lambda: problem.strains,
-                     lambda: problem.vjp(np.zeros(problem.positions.shape))):
+        for call in (problem.energy, problem.gradient, lambda: problem.shape_gradients, lambda: problem.strains):
             with self.assertRaisesRegex(exemplar.UserError, "shell"):
                 call()
         with self.assertRaisesRegex(exemplar.UserError, "node 1000"):

@@ -128,6 +128,13 @@ namespace Exemplar
                  const std::vector<double> &weights,
                  ElasticEvaluation         &evaluation) override;
 
+    /// Add the changes of all forces by a displacement of any nodes, by the exact tangent, that of damping included.
+    void
+    add_exact_response(const Vector              &displacement,
+                       const Vector              &positions,
+                       const std::vector<double> &weights,
+                       Vector                    &gradient);
+
     std::vector<double>
     weight_linear_term(const Vector &positions, RotationUse rotations = RotationUse::keep) override;
 

@@ -79,6 +79,16 @@ namespace Exemplar
                                    : std::max(1e-6, 10. * required);
     }
 
+    void
+    require_known_shell(const Problem &problem)
+    {
+      if (problem.actions.obstacles != nullptr)
+        refuse("of shells beside obstacles, which push at half of the thickness",
+               "Leave out Obstacles/Names.");
+      if (problem.body.material.volume_stiffness() > 0.)
+        refuse("of shells with a Volume stiffness", "Set Material/Volume stiffness to 0.");
+    }
+
     /// Throws UserError, by name, for terms of the potential that derivatives_of_slope() does not
     /// know.
     void
@@ -87,7 +97,7 @@ namespace Exemplar
       if (problem.body.exchange().n_processes() > 1)
         refuse("for several processes", "Use one.");
       if (problem.body.mesh.is_shell())
-        refuse("of shells", "Set Mesh/Kind = solid.");
+        require_known_shell(problem);
       for (const auto &term : problem.potential.get_terms())
         if (const NoGradients none = term->no_gradients(); !none.what.empty())
           refuse(none.what, none.remedy);
@@ -130,6 +140,8 @@ namespace Exemplar
   {
     const FESpace    &fe_space = problem.body.fe_space;
     const LawsOfCells laws     = laws_of_cells(problem.parameters, problem.body);
+    if (fe_space.is_shell())
+      return; // a triangle has a rotation wherever it has an area
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
     {
       const unsigned int cell = fe_space.cell_of(point);

@@ -27,6 +27,8 @@ namespace Exemplar
       : fe_space(problem.body.fe_space), patches(problem.body.patches),
         poses(problem.examples.poses), laws(laws_of_cells(problem.parameters, problem.body))
   {
+    if (fe_space.is_shell())
+      return; // whose strains are others, see slope_of_shell.h
     strains.assign(fe_space.n_points() * poses.size(), {});
     for (unsigned int point = 0; point < fe_space.n_points(); ++point)
       for (unsigned int i = 0; i < poses.size(); ++i)

@@ -108,6 +108,8 @@ namespace Exemplar
       result.poisson = negative(std::move(slope.by_poisson));
     }
     result.density = negative(std::move(slope.by_density));
+    if (!slope.by_thickness.empty())
+      result.thickness = negative(std::move(slope.by_thickness));
     if (!slope.by_tension.empty())
       result.tension = negative(std::move(slope.by_tension));
     result.nodal_forces       = negative(std::move(slope.by_nodal_forces));
@@ -120,7 +122,8 @@ namespace Exemplar
         result.poses.push_back(negative(std::move(slope.by_poses[i])));
     const ExampleParameters &examples = problem.parameters.examples;
     if ((!examples.weights_per_region || examples.region_blend_length == 0.)
-        && examples.regions == RegionsOfExamples::none && knows_starts_beside_obstacles(problem))
+        && examples.regions == RegionsOfExamples::none && !problem.body.mesh.is_shell()
+        && knows_starts_beside_obstacles(problem))
       result.rest_positions = negative(std::move(slope.by_rest_positions));
     result.obstacles = of_obstacles(problem, slope);
     return result;
@@ -137,7 +140,7 @@ namespace Exemplar
     bool all = std::isfinite(sum_of_others) && is_finite(found.density) && is_finite(found.handles)
                && is_finite(found.nodal_forces) && is_finite(found.gravity)
                && std::isfinite(found.importance.value_or(0.));
-    for (const auto *numbers : { &found.young, &found.poisson, &found.tension })
+    for (const auto *numbers : { &found.young, &found.poisson, &found.thickness, &found.tension })
       all = all && (!*numbers || is_finite(**numbers));
     for (const Vector &pose : found.poses)
       all = all && is_finite(pose);

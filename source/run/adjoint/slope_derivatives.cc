@@ -2,6 +2,7 @@
 #include <exemplar/run/adjoint/example_strains.h>
 #include <exemplar/run/adjoint/slope_of_contact.h>
 #include <exemplar/run/adjoint/slope_of_points.h>
+#include <exemplar/run/adjoint/slope_of_shell.h>
 
 #include <algorithm>
 
@@ -188,6 +189,8 @@ namespace Exemplar
       sums.by_constants.assign(m, {});
       for (auto *cells : { &sums.by_young, &sums.by_poisson, &sums.by_density })
         cells->assign(m, 0.);
+      if (problem.body.fe_space.is_shell())
+        sums.by_thickness.assign(m, 0.);
       return sums;
     }
 
@@ -226,8 +229,13 @@ namespace Exemplar
   derivatives_of_slope(Problem &problem, const ExampleStrains &strains, const Direction &direction)
   {
     SlopeDerivatives sums = no_derivatives(problem);
-    ElasticPart      part(problem, strains, direction.weights);
-    SlopeOfPoints<ElasticPart>(problem, direction.positions, part).add_to(sums);
+    if (problem.body.fe_space.is_shell())
+      add_slope_of_shell(problem, direction, sums);
+    else
+    {
+      ElasticPart part(problem, strains, direction.weights);
+      SlopeOfPoints<ElasticPart>(problem, direction.positions, part).add_to(sums);
+    }
     add_slope_of_ridge(problem, direction, sums);
     add_slope_of_loads(problem, direction, sums);
     add_slope_of_contact(problem, direction, sums);
@@ -238,6 +246,11 @@ namespace Exemplar
   void
   carry_to_parameters(const Problem &problem, SlopeDerivatives &sums)
   {
+    if (problem.body.fe_space.is_shell())
+    {
+      carry_to_shell(problem, sums);
+      return;
+    }
     carry_strains_to_poses(problem, sums);
     carry_constants_to_moduli(problem, sums);
     for (unsigned int cell = 0; cell < sums.by_gradients.size(); ++cell)

@@ -3,6 +3,7 @@
 #include <exemplar/run/adjoint/example_strains.h>
 #include <exemplar/run/adjoint/slope_of_motion.h>
 #include <exemplar/run/adjoint/slope_of_points.h>
+#include <exemplar/run/adjoint/slope_of_shell.h>
 #include <exemplar/run/adjoint/slope_terms.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -15,6 +16,16 @@ namespace Exemplar
     dealii::FullMatrix<double>
     unit_matrix(const FESpace &fe_space, const MassMatrix kind)
     {
+      if (fe_space.is_shell())
+      {
+        dealii::FullMatrix<double> of_triangle(3, 3);
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = 0; b < 3; ++b)
+            of_triangle(a, b) = kind == MassMatrix::consistent ? (a == b ? 2. : 1.) / 12.
+                                : a == b                       ? 1. / 3.
+                                                               : 0.;
+        return of_triangle;
+      }
       dealii::FullMatrix<double> m = fe_space.unit_mass_matrix();
       if (kind == MassMatrix::consistent)
         return m;
@@ -263,6 +274,11 @@ namespace Exemplar
                        SlopeDerivatives     &sums,
                        MotionDerivatives    &of_motion)
   {
+    if (problem.body.fe_space.is_shell())
+    {
+      add_slope_of_shell_damping(problem, start, direction, sums, of_motion);
+      return;
+    }
     const TimeIntegrator &integrator = *problem.actions.integrator;
     DampingPart           part(problem, of_examples, integrator.history(start));
     part.set_factor(integrator.rate_factor());

@@ -111,7 +111,10 @@ namespace Exemplar
       for (unsigned int a = 0; a < nodes.size(); ++a)
         for (unsigned int c = 0; c < 3; ++c)
         {
-          const double part = -ramp * (a < 4 ? shares.of_vertex(1.) : shares.of_edge(1.))
+          const double part = -ramp
+                              * (fe_space.is_shell() ? 1. / 3.
+                                 : a < 4             ? shares.of_vertex(1.)
+                                                     : shares.of_edge(1.))
                               * direction.positions[3 * nodes[a] + c];
           sums.by_gravity[c] += mass * part;
           work += part * loads.gravity[c];

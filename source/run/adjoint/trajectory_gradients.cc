@@ -96,6 +96,7 @@ namespace Exemplar
       add(some.by_poisson, to.by_poisson);
       add(some.by_density, to.by_density);
       add(some.by_tension, to.by_tension);
+      add(some.by_thickness, to.by_thickness);
       for (std::size_t cell = 0; cell < to.by_gradients.size(); ++cell)
       {
         to.by_gradients[cell] = combine(1., to.by_gradients[cell], 1., some.by_gradients[cell]);
@@ -176,8 +177,15 @@ namespace Exemplar
       find_held_nodes()
       {
         const FreeDofs &free_dofs = problem.potential.get_free_dofs();
-        for (unsigned int dof = 0; dof < problem.body.fe_space.n_dofs(); ++dof)
-          if (free_dofs.free_index(dof) == FreeDofs::held
+        const FESpace  &fe_space  = problem.body.fe_space;
+        // a slope has one number, behind which there are two that nothing depends on
+        const auto is_unused = [&](const unsigned int dof)
+        {
+          return fe_space.is_shell() && dof / 3 >= problem.body.mesh.n_nodes()
+                 && free_dofs.free_index(dof / 3 * 3) != FreeDofs::held;
+        };
+        for (unsigned int dof = 0; dof < fe_space.n_dofs(); ++dof)
+          if (free_dofs.free_index(dof) == FreeDofs::held && !is_unused(dof)
               && (result.held_nodes.empty() || result.held_nodes.back() != dof / 3))
             result.held_nodes.push_back(dof / 3);
       }

@@ -126,8 +126,6 @@ namespace Exemplar
                 "auto." },
         { output.space_error != SpaceErrorUse::never,
           key + "Output/Space error compares tetrahedra. Set it to false." },
-        { !output.functional.empty(),
-          key + "gradients (Output/Functional, vjp) are not for shells yet. Remove it." },
         { !obstacles.empty() && obstacles.free == FreeBodies::weak_springs,
           key
               + "Obstacles/Free = weak springs is not for shells, which bend more easily than "

@@ -24,6 +24,7 @@ namespace Exemplar
   {
     std::optional<std::vector<double>> young, poisson; ///< by cell; not if orthotropic
     std::vector<double>                density;        ///< by cell
+    std::optional<std::vector<double>> thickness;      ///< by triangle of a shell; none for solids
     std::optional<std::vector<double>> tension;        ///< by cell; none without active fibres
     std::optional<double>              importance;     ///< none without examples
     std::vector<Vector>                poses;          ///< of all examples but the rest pose

@@ -37,9 +37,11 @@ namespace Exemplar
     std::vector<std::array<double, 3>> by_constants;
     std::vector<double>                by_young, by_poisson, by_density; ///< by cell
     std::vector<double>                by_tension; ///< of fibres, by cell; empty without
-    double                             by_importance = 0.;
-    Vector                             by_nodal_forces;
-    std::array<double, 3>              by_gravity{};
+    /// By the thickness of the triangles of a shell; times it until carry_to_parameters(). Empty for solids.
+    std::vector<double>   by_thickness;
+    double                by_importance = 0.;
+    Vector                by_nodal_forces;
+    std::array<double, 3> by_gravity{};
     Vector
         by_start; ///< by what slips are counted from, x_star of the time scheme; empty without friction
     std::vector<ObstacleSlopes::OfObstacle> of_obstacles; ///< empty without obstacles
@@ -53,10 +55,15 @@ namespace Exemplar
     }
 
     /// Add what follows from a change of a cell's volume; `by_volume` is the volume times the
-    /// derivative.
+    /// derivative. The volume of a shell changes with its thickness.
     void
     add_by_volume(const unsigned int cell, const double by_volume)
     {
+      if (!by_thickness.empty())
+      {
+        by_thickness[cell] += by_volume;
+        return;
+      }
       for (int i = 0; i < 3; ++i)
         by_gradients[cell][i][i] += by_volume;
     }
