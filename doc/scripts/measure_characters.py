@@ -77,7 +77,7 @@ def main():
                 table.append([pose.stem, n_cells, row["inverted_cells"], row["surface_error_max"], row["surface_error_mean"], row["longest_edge"],
                               f"{one / unit:.2f}", f"{two / unit:.2f}"])
                 print(*table[-1], flush=True)
-    print_table(table)
+    print_table(*table)
 
 
 if __name__ == "__main__":
