@@ -126,6 +126,23 @@ namespace Exemplar::Python
       return names;
     }
 
+    /// The regions of Examples/Regions = auto, with the words of summary.json.
+    py::list
+    weight_regions(const HeldProblem &held)
+    {
+      py::list found;
+      for (const WeightRegion &region : held.get().body.weight_regions)
+      {
+        const auto &centre = region.centre;
+        found.append(
+            py::dict(py::arg("region") = py::len(found) + 1, py::arg("cells") = region.n_cells,
+                     py::arg("volume")  = region.volume,
+                     py::arg("centre")  = std::vector<double>{ centre[0], centre[1], centre[2] },
+                     py::arg("example") = region.example));
+      }
+      return found;
+    }
+
     const char *
     name_of(const SceneKind kind)
     {
@@ -174,6 +191,12 @@ namespace Exemplar::Python
         "example_names", &example_names,
         "What the examples are called, in the order of the weights: a list of strings, files,\n"
         "formulas or 'rest pose'. Empty without examples.");
+    problem.def_property_readonly(
+        "weight_regions", &weight_regions,
+        "The regions that Examples/Regions = auto found, in the order of the weights: a list of\n"
+        "dictionaries as in summary.json, of region (from 1), cells, volume (fraction), centre "
+        "(3)\n"
+        "[m] and example. Empty without.");
     problem.def("__repr__", &representation);
   }
 } // namespace Exemplar::Python

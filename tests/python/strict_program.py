@@ -53,7 +53,7 @@ def look(problem: exemplar.Problem) -> None:
     by_cell: list[Field] = [problem.young, problem.poisson, problem.density, problem.volumes, problem.det_F, problem.strains, problem.stresses,
                             problem.example_strains, problem.shape_gradients, problem.weights]
     of_nodes: list[NDArray[np.uint32]] = [problem.cells, problem.cell_nodes, problem.surface_triangles, *problem.handles.values()]
-    words: list[str] = [*problem.example_names, *problem.warnings, *problem.handles, *problem.obstacles]
+    words: list[str] = [*problem.example_names, *problem.warnings, *problem.handles, *problem.obstacles, *map(str, problem.weight_regions)]
     numbers: list[float] = [problem.time, problem.residual, problem.energies["energy_elastic"], *problem.statistics.values()]
     counts: list[int] = [problem.step_number, problem.n_steps, len(by_node), len(by_cell), len(of_nodes), len(words), len(numbers)]
     measures: exemplar.Measures = problem.energies

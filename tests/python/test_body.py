@@ -79,6 +79,18 @@ class ReadBack(unittest.TestCase):
         names = exemplar.Problem(scene, mesh=(nodes, cells), poses=[pose, pose + .01 * nodes[:, :1]]).example_names
         self.assertEqual([Path(name).name for name in names], ["rest pose", "pose_0", "pose_1"])
 
+    def test_weight_regions(self):
+        """A long bar whose halves bend in one example each has a region for each."""
+        bar = {"Scene": "static", "Mesh": {"Generator": "box", "Box size": [10, 1, 1], "Box cells": [20, 2, 2]},
+               "Handles": {"middle": {"Select": ["box", 4.9, 0, 0, 5.1, 1, 1]}}}
+        poses = ["x; y; z + (x < 4 ? .1 * (4 - x)^2 : 0)", "x; y; z + (x > 6 ? .1 * (x - 6)^2 : 0)"]
+        found = exemplar.Problem({**bar, "Examples": {"Pose functions": " | ".join(poses), "Regions": "auto"}})
+        self.assertEqual([region["region"] for region in found.weight_regions], list(range(1, len(found.weight_regions) + 1)))
+        self.assertGreater(len(found.weight_regions), 1)
+        self.assertEqual(sum(region["cells"] for region in found.weight_regions), len(found.cells))
+        self.assertAlmostEqual(sum(region["volume"] for region in found.weight_regions), 1)
+        self.assertEqual(exemplar.Problem(bar).weight_regions, [])
+
     def test_repr(self):
         problem = exemplar.Problem(BAR)
         problem.step()
