@@ -80,6 +80,16 @@ class Bodies(BodyContactTest):
                 self.assertGreater(max(row["body_pairs"] for row in rows), 0)
                 self.assertGreater(min(row["least_body_gap"] for row in rows), 0)
 
+    def test_a_pose_in_which_pieces_cross_is_warned_of(self):
+        self.write_pieces(*CROSS)
+        scene = {**FREE, "Contact/Bodies": "true", "Time/End": "0.01", "Time/Step": "0.01"}
+        for pose, words in (("x; y; z > 0.11 ? z - 0.1 : z", "the surface meets itself or another piece in this pose, near ("),
+                            ("x; y; z > 0.11 ? z + 0.1 : z", "")):
+            run = self.attempt({**scene, "Examples/Pose functions": pose})
+            self.assertEqual(run.status, 0, run.stderr)
+            self.assertIn(words, run.stderr)
+            self.assertEqual("meets itself" in run.stderr, bool(words))
+
     def test_momentum_is_kept_and_energy_not_gained(self):
         self.write_pieces(*CROSS)
         rows = read_csv(self.solve({**FREE, "Initial/Velocity": "0.3; 0; (z > 0.11 ? -3 : 0)", "Solver/Step tolerance": "1e-10",

@@ -306,6 +306,42 @@ class AgainstAReference(ObstacleTest):
         self.check("sphere 0.15 0.02 -0.6 0.45", lambda body: body.sphere(np.array((0.15, 0.02, -0.6)), 0.45))
 
 
+class FromTheBeginning(ObstacleTest):
+    def test_what_touches_far_obstacles_comes_to_rest(self):
+        # distances from a centre, corners or an axis that are far away are rounded as these coordinates are
+        for shape in ("sphere 0.05 0 -100.05 100", "inside box -3 -3 -.05 3 3 20", "inside box -.5 -.5 -.05 .5 .5 5",
+                      "box -50 -50 -50 50 50 -.05", "capsule -50 0 -10.05 50 0 -10.05 10"):
+            for young in ("1e7", "1e8"):
+                with self.subTest(shape=shape, young=young):
+                    run = self.attempt({**CUBE, "Material/Young's modulus": young, "Obstacles/floor/Shape": shape, "Obstacles/floor/Friction": "0.5",
+                                        "Loads/Gravity": f"2, 0, {-G}", "Time/Step": "0.002", "Time/End": "0.06"})
+                    self.assertEqual(run.status, 0, run.stderr)
+                    self.assertAlmostEqual(read_csv(run.output)[-1]["contact_floor_z"], G, delta=.05 * G)
+
+    def test_an_obstacle_that_is_not_there_yet_does_not_count(self):
+        lid = {"Obstacles/floor/Shape": "plane 0 0 0 0 0 1", "Obstacles/floor/Motion": "0; 0; t < 0.02 ? 0 : -1", "Obstacles/floor/From": "0.03",
+               "Time/End": "0.05"}
+        run = self.attempt({**BAR, **lid})
+        self.assertEqual(run.status, 0, run.stderr)
+        self.assertIn("No step ends near Obstacles/floor", " ".join(read_summary(run.output)["warnings"]))
+        stays = self.attempt({**BAR, **lid, "Obstacles/floor/Motion": None})
+        self.assertEqual(stays.status, 2)
+        self.assertIn("Obstacles/floor appears at t = 0.03 s where the body is, near (", stays.stderr)
+        self.assertEqual(read_summary(stays.output)["status"], "failed")
+        self.assertTrue((stays.output / "final.msh").exists())
+
+    def test_a_floor_that_was_raised_into_the_body_stops_a_resume(self):
+        fall = {**BAR, "Obstacles/floor/Shape": "plane 0 0 -0.13 0 0 1", "Time/End": "0.1"}
+        run = self.attempt(fall)
+        self.assertEqual(run.status, 0, run.stderr)
+        raised = self.write("raised.prm", prm({**fall, "Obstacles/floor/Shape": "plane 0 0 -0.11 0 0 1", "Time/End": "0.2"}))
+        before = (run.output / "statistics.csv").read_bytes()
+        again = self.call(raised, "--output", run.output, "--resume-from", "10")
+        self.assertEqual(again.status, 1, again.stderr)
+        self.assertIn("At t = 0.1 s the body is inside of Obstacles/floor, near (", again.stderr)
+        self.assertEqual((run.output / "statistics.csv").read_bytes(), before)
+
+
 class Refused(BadInputTest):
     CASES = (
         ({"Obstacles/floor/Shape": None}, "Obstacles/floor/Shape is not set. Allowed: plane x y z nx ny nz"),
@@ -328,6 +364,8 @@ class Refused(BadInputTest):
         ({"Obstacles/floor/Follow cache": "rig.mdd"}, "is no surface"),
         ({"Obstacles/floor/Motion": "10*t; 0"}, "Obstacles/floor/Motion"),
         ({"Obstacles/floor/Motion": "0; 0; 100*t"}, "more than a quarter of the body's diameter"),
+        ({"Obstacles/floor/Turn": "0; 150*t; 0"}, "Obstacles/floor turns by 1.5 rad in the step to t = 0.01 s, more than 1"),
+        ({"Obstacles/Names": "floor, floor_torque", "Obstacles/floor_torque/Shape": "plane 0 0 -5 0 0 1"}, "Give one of them another name"),
         ({"Obstacles/floor/Until": "-1"}, "the obstacle would never be there"),
         ({"Model/Gradient": "frozen"}, "nothing keeps it out"),
         ({"Solver/Method": "fixed point"}, "nothing keeps it out"),

@@ -131,6 +131,7 @@ class Ties(SceneTest):
                  "which faces it from 0.5 m away. Enlarge Reach"),
                 ({**dynamic, "Ties/glue/Select": "box 5 5 5 6 6 6"}, "selects no node"),
                 ({**dynamic, "Ties/glue/To": "box 0.99 -0.01 -0.01 1.01 0.01 0.01"}, "holds no triangle of the surface whole"),
+                ({**dynamic, "Ties/glue/Stiffness": "1e20"}, "Ties/glue/Stiffness = 1e+20 is so great that forces would be the rounding of positions"),
                 ({**dynamic, "Ties/glue/Stiffness": "-1"}, "Ties/glue/Stiffness = '-1' is not allowed. Allowed: rigid, or a positive number"),
                 ({**dynamic, "Ties/glue/Reach": "far"}, "Ties/glue/Reach = 'far' is not allowed"),
                 ({**dynamic, "Mesh/Files": "first.msh"}, "is in one piece. Leave Ties/Names empty"),
