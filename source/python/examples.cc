@@ -137,6 +137,8 @@ True)" },
 (80, 3, 3))" },
       { "Problem.handles", R"(>>> sorted(problem.handles), len(problem.handles["left"])
 (['left', 'right'], 9))" },
+      { "Problem.weight_regions", R"(>>> problem.weight_regions
+[])" },
       { "Problem.example_names", R"(>>> problem.example_names[0]
 'rest pose')" },
       { "Problem.write", R"(>>> problem.write("body.vtu"))" },

@@ -78,10 +78,11 @@ class Values(unittest.TestCase):
         with problem.record() as trajectory:
             report = problem.step()
         on_floor = exemplar.Problem({**BAR, "Obstacles/Names": "floor", "Obstacles/floor/Shape": "plane 0 0 -9  0 0 1"})
+        in_parts = exemplar.Problem({**BAR, "Examples": {"Pose functions": "x; y; z + .05*x^2 | 1.1*x; y; z", "Regions": "auto"}})
         owners = {"Problem": problem, "State": problem.state, "Report": report, "Trajectory": trajectory}
         for owner, name, said in annotations():
             with self.subTest(f"{owner}.{name}"):
-                of = on_floor if name == "obstacles" else owners[owner]
+                of = {"obstacles": on_floor, "weight_regions": in_parts}.get(name, owners[owner])
                 self.assertEqual(said.removesuffix(" | None"), type_of(getattr(of, name)))
 
 
