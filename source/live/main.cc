@@ -120,14 +120,16 @@ Exit status:
       return asked == "y" || (asked.empty() && is_of_blender) ? 1 : 2;
     }
 
-    /// Overrides, and what makes a floor at this coordinate among a scene's obstacles. Throws UserError if one
-    /// of them has its name.
+    /// Overrides, and what makes a floor at this coordinate among a scene's obstacles. Throws UserError if that is
+    /// not finite, or one of them has its name.
     std::vector<std::string>
     with_floor(std::vector<std::string> overrides,
                const SceneFile         &scene,
                const double             place,
                const unsigned int       axis_without_gravity)
     {
+      if (!std::isfinite(place))
+        throw UserError("--floor takes a finite coordinate [m], as --floor 0.");
       const std::array<double, 3> &gravity = scene.get_parameters().loads.gravity;
       const auto                   steep   = std::max_element(gravity.begin(), gravity.end(),
                                                               [](const double a, const double b)

@@ -77,9 +77,13 @@ namespace Exemplar
       text.remove_prefix(1);
     if (const auto value = decimal_number<double>(text))
       return *value;
-    // from_chars() refuses numbers below the least of full precision
-    if (const double value = parse_number(std::string(text));
-        std::abs(value) < 1e-300 && text.find_first_not_of("0123456789.eE+-") == std::string::npos)
+    // from_chars() refuses numbers below the least of full precision, and exponents as Fortran
+    // writes them (1.5D-3)
+    std::string in_c(text);
+    std::replace_if(
+        in_c.begin(), in_c.end(), [](const char c) { return c == 'd' || c == 'D'; }, 'e');
+    if (const double value = parse_number(in_c);
+        std::isfinite(value) && in_c.find_first_not_of("0123456789.eE+-") == std::string::npos)
       return value;
     fail(what + " should be a finite number, found " + shown(whole)
          + ". Save or copy the mesh again.");

@@ -22,6 +22,15 @@ namespace Exemplar
                       + "' is not allowed. Allowed: auto, or a positive number [" + unit + "].");
   }
 
+  void
+  check_friction(const double friction, const std::string &key)
+  {
+    constexpr double greatest = 1e6;
+    if (!(friction >= 0. && friction <= greatest))
+      throw UserError(key + " = " + shortest_text(friction)
+                      + " is not allowed. Allowed: 0 to 1e6.");
+  }
+
   double
   contact_distance(const std::string &text, const std::string &key, const double diameter)
   {
@@ -66,9 +75,7 @@ namespace Exemplar
   {
     check_length(distance, "Contact/Distance", "m");
     check_length(slip_speed, "Contact/Slip speed", "m/s");
-    if (!(friction >= 0.))
-      throw UserError("Contact/Friction = " + shortest_text(friction)
-                      + " is not allowed. Allowed: 0 or more.");
+    check_friction(friction, "Contact/Friction");
     if (leave_out.empty())
       return;
     const std::vector<std::string> texts = split_trimmed(leave_out, ';');

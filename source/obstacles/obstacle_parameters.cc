@@ -61,9 +61,7 @@ namespace Exemplar
                         + "/Shape = '" + shape
                         + "' is no surface. Set Motion and Turn instead, or Shape = surface FILE.");
     }
-    if (!(friction >= 0.))
-      throw UserError(key + "/Friction = " + shortest_text(friction)
-                      + " is not allowed. Allowed: 0 or more.");
+    check_friction(friction, key + "/Friction");
     const ObstacleParameters usual;
     std::vector<std::string> movers; // the keys that say where it goes
     for (const auto &[mover, given] : { std::pair("/Follow cache", !follow_cache.empty()),

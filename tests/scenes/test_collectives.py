@@ -141,7 +141,7 @@ class Collectives(SceneTest):
         self.assertGreater(len(files_of_scenes()), 40)
         for file in files_of_scenes():
             if not is_of_one_process_alone(file):
-                self.compare(file, {**TIGHT, **first_steps(file)}, 1e-9)
+                self.compare(file, {**TIGHT, **first_steps(file)}, 1e-9, ranks=(3,))
 
     def test_scenes_that_several_processes_refuse(self):
         refused = [file for file in files_of_scenes() if is_of_one_process_alone(file)]

@@ -150,6 +150,12 @@ class MeshFormatsTest(SceneTest):
         run = self.call(self.scene({**FALL, "Mesh/File": "sets.inp", "Handles/left/Select": "region Stiff"}), "--validate")
         self.assertEqual(run.status, 0, run.stderr)
 
+    def test_exponents_of_fortran(self):
+        text = (MESHES / "meshio.inp").read_text()
+        (self.directory / "fortran.inp").write_text(text.replace("e-", "D-").replace("e+", "d+"))
+        self.check_fall("fortran.inp", self.nodes_after_fall(MESHES / "box.msh"))
+        self.refuses("a.inp", text.replace("e-01", "D-0D1"), "should be a finite number")
+
     def test_poses_in_other_formats(self):
         self.call("convert", MESHES / "box.msh", "pose.vtu")
         expected = self.nodes_after_fall(MESHES / "box.msh")

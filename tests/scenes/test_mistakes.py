@@ -306,6 +306,7 @@ COMMANDS = [
     (["export", "scene.prm", "--html", "x.html"], ["scene.prm is no directory", "output directory of a run"]),
     (["live", "scene.prm", "--output", "x"], ["'--output'", "--record DIRECTORY"]),
     (["live", "scene.prm", "--validate"], ["'--validate'", "exemplar SCENE.prm --validate"]),
+    (["live", "dynamic.prm", "--floor", "nan"], ["--floor takes a finite coordinate [m]"]),
     (["live", "scene.prm", "--prot", "1"], ["'--prot'", "Did you mean '--port'"]),
     (["live", "scene.prm", "--until"], ["'--until'", "Did you mean '--until-input-ends'"]),
     (["live", "dynamic.prm", "--bind", "localhost"], ["'localhost' is no address of numbers", "127.0.0.1"]),

@@ -15,6 +15,11 @@ namespace Exemplar
   void
   check_length(const std::string &text, const std::string &key, const std::string &unit);
 
+  /// Throws UserError unless the coefficient of friction of a key is from 0 to 1e6, where surfaces stick. The squares
+  /// of much greater ones times forces leave the range of numbers.
+  void
+  check_friction(double friction, const std::string &key);
+
   /// The distance [m] from which a body of this diameter [m] is pushed, by the text of a key: a number [m], or auto. Throws
   /// UserError for a number that is above a tenth of the diameter or below a millionth.
   double

@@ -217,8 +217,7 @@ namespace Exemplar
         return name + ": the surface meets itself or another piece in this pose, near "
                + place_text(near.place)
                + " m, but not at rest. With Contact the body cannot come all of the way to it; a "
-                 "pose "
-                 "without this is followed better.";
+                 "pose without this is followed better.";
     return "";
   }
 } // namespace Exemplar

@@ -190,40 +190,51 @@ namespace Exemplar
         add(vertex);
       return std::acos(std::max(-1., least_cosine));
     }
+
+    /// How far an obstacle goes and turns in the step from `begin` to `end` [s]. Throws UserError if that is more
+    /// than the stages of a step can follow.
+    void
+    check_motion_in_step(const Obstacle &obstacle,
+                         const double    begin,
+                         const double    end,
+                         const double    diameter)
+    {
+      constexpr double   greatest    = 0.25; // of the diameter
+      constexpr double   most_turned = 1.;   // [rad]
+      const ObstaclePose from = obstacle.pose(begin), to = obstacle.pose(end);
+      double             way     = (to.place - from.place).norm();
+      const bool         deforms = obstacle.deforms();
+      const auto         before  = deforms ? obstacle.vertices(begin) : std::vector<SpaceVector3>();
+      const auto         after   = deforms ? obstacle.vertices(end) : before;
+      for (std::size_t v = 0; v < before.size(); ++v)
+        way = std::max(way, (after[v] - before[v]).norm());
+      if (way > greatest * diameter)
+        throw UserError(fmt::format(
+            "Obstacles/{} goes {} m in the step to t = {} s, more than a quarter of the body's "
+            "diameter of {} m. Take smaller steps (Time/Step or Time/Increments), or a slower {}.",
+            obstacle.name(), short_text(way), shortest_text(end), short_text(diameter),
+            deforms ? "cache" : "Motion"));
+      if (const double turn = turn_of_form(obstacle.shape(), from, to); turn > most_turned)
+        throw UserError(fmt::format(
+            "Obstacles/{} turns by {} rad in the step to t = {} s, more than 1. Take smaller "
+            "steps (Time/Step or Time/Increments), or a slower Turn or track.",
+            obstacle.name(), short_text(turn), shortest_text(end)));
+    }
   } // namespace
 
   void
   check_obstacle_motions(const Obstacles &obstacles, const Body &body, const TimeAxis &axis)
   {
-    constexpr unsigned int max_samples = 10000;
-    constexpr double       greatest    = 0.25; // of the diameter
-    constexpr double       most_turned = 1.;   // [rad]
+    constexpr unsigned int most_steps_of_formulas = 1000000; // two poses take microseconds
+    constexpr unsigned int most_steps_of_caches   = 10000;   // which are read
     for (const Obstacle &obstacle : obstacles.all)
-      for (unsigned int step = 1; step <= std::min(axis.n_steps(), max_samples); ++step)
-      {
-        const double begin = axis.time(step - 1), end = axis.time(step);
-        if (!obstacle.is_there(begin))
-          continue;
-        const ObstaclePose from = obstacle.pose(begin), to = obstacle.pose(end);
-        double             way     = (to.place - from.place).norm();
-        const bool         deforms = obstacle.deforms();
-        const auto before = deforms ? obstacle.vertices(begin) : std::vector<SpaceVector3>();
-        const auto after  = deforms ? obstacle.vertices(end) : before;
-        for (std::size_t v = 0; v < before.size(); ++v)
-          way = std::max(way, (after[v] - before[v]).norm());
-        if (way > greatest * body.mesh.diameter())
-          throw UserError(fmt::format(
-              "Obstacles/{} goes {} m in the step to t = {} s, more than a quarter of the body's "
-              "diameter of {} m. Take smaller steps (Time/Step or Time/Increments), or a slower "
-              "{}.",
-              obstacle.name(), short_text(way), shortest_text(end),
-              short_text(body.mesh.diameter()), deforms ? "cache" : "Motion"));
-        if (const double turn = turn_of_form(obstacle.shape(), from, to); turn > most_turned)
-          throw UserError(fmt::format(
-              "Obstacles/{} turns by {} rad in the step to t = {} s, more than 1. Take smaller "
-              "steps (Time/Step or Time/Increments), or a slower Turn or track.",
-              obstacle.name(), short_text(turn), shortest_text(end)));
-      }
+    {
+      const unsigned int most = obstacle.deforms() ? most_steps_of_caches : most_steps_of_formulas;
+      for (unsigned int step = 1; step <= std::min(axis.n_steps(), most); ++step)
+        if (obstacle.is_there(axis.time(step - 1)))
+          check_motion_in_step(obstacle, axis.time(step - 1), axis.time(step),
+                               body.mesh.diameter());
+    }
   }
 
   void
