@@ -157,8 +157,9 @@ namespace Exemplar
   ShareDerivatives
   ContactSurface::no_derivatives() const
   {
-    return { std::vector<double>(triangles.size()), std::vector<double>(edges.size()),
-             std::vector<double>(nodes.size()), std::vector<double>(edges.size()) };
+    const std::vector<double> of_triangles(triangles.size()), of_edges(edges.size()),
+        of_nodes(nodes.size());
+    return { of_triangles, of_edges, of_nodes, of_edges, of_triangles, of_edges, of_nodes };
   }
 
   void
@@ -176,16 +177,19 @@ namespace Exemplar
     for (unsigned int t = 0; t < triangles.size(); ++t)
     {
       const Triangle &triangle = triangles[t];
-      double          by_share = by_shares.triangles[t];
+      double          by_share = by_shares.triangles[t], by_area = by_shares.areas_of_triangles[t];
       for (unsigned int k = 0; k < 3; ++k)
-        by_share += (by_shares.edges[number_of_edge(triangle.nodes[k], triangle.nodes[(k + 1) % 3])]
-                     + by_shares.nodes[number_of_node(triangle.nodes[k])])
-                    / 3.;
-      if (by_share == 0.)
+      {
+        const unsigned int edge = number_of_edge(triangle.nodes[k], triangle.nodes[(k + 1) % 3]),
+                           node = number_of_node(triangle.nodes[k]);
+        by_share += (by_shares.edges[edge] + by_shares.nodes[node]) / 3.;
+        by_area += (by_shares.areas_of_edges[edge] + by_shares.areas_of_nodes[node]) / 3.;
+      }
+      if (by_share == 0. && by_area == 0.)
         continue;
       by_young[triangle.cell] += by_share * triangle.area;
-      const double by_area = by_share * material.youngs_modulus(triangle.cell);
-      const auto   x
+      by_area += by_share * material.youngs_modulus(triangle.cell);
+      const auto x
           = [&](const unsigned int k) { return fe_space.rest_position(triangle.nodes[k % 3]); };
       const dealii::Tensor<1, 3> n = dealii::cross_product_3d(x(1) - x(0), x(2) - x(0));
       // the area is half of |n|, and a corner moves it along the height over the opposite edge

@@ -314,6 +314,13 @@ namespace Exemplar
     return result;
   }
 
+  BodyTouch
+  BodyPairSearch::touch_at(const BodyPair &pair, const Places &places) const
+  {
+    const BodyPairCorners x = corners(pair, places);
+    return touch({ pair, contacts.width_of(pair), 0. }, x, distance(pair, x.places));
+  }
+
   void
   BodyPairSearch::append(const Vector           &positions,
                          const double            range,

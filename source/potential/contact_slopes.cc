@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/potential/barrier.h>
 #include <exemplar/potential/contact_slopes.h>
+#include <exemplar/potential/nodal_vectors.h>
 
 #include <cmath>
 
@@ -8,23 +9,34 @@ namespace Exemplar
 {
   namespace
   {
-    /// How the part m of the energy of almost parallel edges, and its gradient by the body's edge, change with the
-    /// logarithm of the square of that edge at rest.
+    /// How the part m of the energy of almost parallel edges, and its gradient by the edges, change with the logarithm of
+    /// the square of one of these at rest.
     struct PartialEdge
     {
-      explicit PartialEdge(const Contact &contact)
+      explicit PartialEdge(const EdgePart &part)
       {
-        if (contact.part.m == 1.)
+        if (part.m == 1.)
           return;
         // m = p (2 - p), and p goes with the inverse of the square
-        const double p = contact.part.m / (1. + std::sqrt(1. - contact.part.m));
+        const double p = part.m / (1. + std::sqrt(1. - part.m));
         m              = -2. * (1. - p) * p;
-        by_edge        = (2. * p - 1.) / (1. - p) * contact.part.by[0];
+        by_gradient    = (2. * p - 1.) / (1. - p);
       }
 
-      double       m = 0.;
-      SpaceVector3 by_edge;
+      double m = 0., by_gradient = 0.; ///< times the gradient
     };
+
+    /// The change of m where the nodes of two edges move by `along`. Those of an edge of an obstacle do not.
+    double
+    change_of_part(const Touch &touch, const ContactGradient &along)
+    {
+      if (touch.part.m == 1.)
+        return 0.;
+      double change = touch.part.by[0] * (along[1] - along[0]);
+      if (touch.gap.n_nodes == 4)
+        change += touch.part.by[1] * (along[3] - along[2]);
+      return change;
+    }
 
     SpaceVector3
     sum(const Gap &gap, const ContactGradient &of_nodes)
@@ -42,29 +54,41 @@ namespace Exemplar
     }
   } // namespace
 
-  ContactSlope
-  slope_of_barrier(const Contact &contact, const ContactGradient &along)
+  ContactGradient
+  at_nodes(const Gap &gap, const Vector &field)
   {
-    const Gap           &gap = contact.gap;
-    const double         d = gap.distance, k = contact.full_stiffness;
+    ContactGradient result{};
+    for (unsigned int i = 0; i < gap.n_nodes; ++i)
+      result[i] = at_node(field, gap.nodes[i]);
+    return result;
+  }
+
+  void
+  add_at_nodes(const Gap &gap, const ContactGradient &derivatives, Vector &to)
+  {
+    for (unsigned int i = 0; i < gap.n_nodes; ++i)
+      add_to(to, gap.nodes[i], derivatives[i]);
+  }
+
+  ContactSlope
+  slope_of_barrier(const Touch &touch, const ContactGradient &along)
+  {
+    const Gap           &gap = touch.gap;
+    const double         d = gap.distance, k = touch.full_stiffness, m = touch.part.m;
     const Barrier        unit{ 1., gap.width };
-    const PartialEdge    partial(contact);
+    const PartialEdge    partial(touch.part);
     const double         closing = gap.normal * sum(gap, along);
-    const SpaceVector3   turning = contact.part.m < 1. ? along[1] - along[0] : SpaceVector3();
-    const double         m_along = contact.part.by[0] * turning;
-    const ContactHessian hessian = hessian_of(contact, Tangent::exact);
+    const double         m_along = change_of_part(touch, along);
+    const ContactHessian hessian = hessian_of(touch, Tangent::exact);
     ContactSlope         result;
     for (unsigned int i = 0; i < gap.n_nodes; ++i)
       for (unsigned int j = 0; j < gap.n_nodes; ++j)
         result.by_positions[i] += hessian[i][j] * along[j];
-    result.by_stiffness = contact.part.m * unit.slope(d) * closing + unit.value(d) * m_along;
-    result.by_width
-        = k
-          * (contact.part.m * unit.slope_by_width(d) * closing + unit.value_by_width(d) * m_along);
-    result.by_distance
-        = k * (contact.part.m * unit.curvature(d) * closing + unit.slope(d) * m_along);
+    result.by_stiffness = m * unit.slope(d) * closing + unit.value(d) * m_along;
+    result.by_width = k * (m * unit.slope_by_width(d) * closing + unit.value_by_width(d) * m_along);
+    result.by_distance = k * (m * unit.curvature(d) * closing + unit.slope(d) * m_along);
     result.by_square
-        = k * (partial.m * unit.slope(d) * closing + unit.value(d) * (partial.by_edge * turning));
+        = k * (partial.m * unit.slope(d) * closing + unit.value(d) * partial.by_gradient * m_along);
     return result;
   }
 
@@ -150,7 +174,7 @@ namespace Exemplar
     slope.by_distance += by.distance;
     slope.by_stiffness -= by_force * contact.part.m * unit.slope(d);
     slope.by_width -= by_force * contact.part.m * k * unit.slope_by_width(d);
-    slope.by_square += by.m * PartialEdge(contact).m;
+    slope.by_square += by.m * PartialEdge(contact.part).m;
     slope.by_coefficient += value / coefficient;
   }
 } // namespace Exemplar

@@ -6,25 +6,6 @@
 
 namespace Exemplar
 {
-  namespace
-  {
-    ContactGradient
-    at_nodes(const Gap &gap, const Vector &field)
-    {
-      ContactGradient result{};
-      for (unsigned int i = 0; i < gap.n_nodes; ++i)
-        result[i] = at_node(field, gap.nodes[i]);
-      return result;
-    }
-
-    void
-    add_at_nodes(const Gap &gap, const ContactGradient &derivatives, Vector &to)
-    {
-      for (unsigned int i = 0; i < gap.n_nodes; ++i)
-        add_to(to, gap.nodes[i], derivatives[i]);
-    }
-  } // namespace
-
   NoGradients
   ObstacleTerm::no_gradients() const
   {
@@ -97,12 +78,9 @@ namespace Exemplar
   ObstacleSlopes
   ObstacleTerm::slopes(const Vector &positions, const Vector &along, const FESpace &fe_space) const
   {
-    ObstacleSlopes sums;
-    for (Vector *field : { &sums.by_positions, &sums.by_rest_positions, &sums.by_first_positions })
-      field->reinit(positions.size());
+    ObstacleSlopes sums(positions.size(), fe_space.n_cells());
     if (have_friction)
       sums.by_start.reinit(positions.size());
-    sums.by_young.assign(fe_space.n_cells(), 0.);
     sums.of_obstacles.resize(obstacles.all.size());
     ShareDerivatives by_shares = surface.no_derivatives();
     for (const Contact &contact : contacts(positions))

@@ -10,10 +10,12 @@
 
 namespace Exemplar
 {
-  /// Derivatives of a function by the shares of a ContactSurface [1/N], and by the squares of its edges' lengths at rest.
+  /// Derivatives of a function by the shares of a ContactSurface [1/N], by its areas where shares stay, and by the squares
+  /// of its edges' lengths at rest.
   struct ShareDerivatives
   {
     std::vector<double> triangles, edges, nodes, squares;
+    std::vector<double> areas_of_triangles, areas_of_edges, areas_of_nodes;
   };
 
   /// What of the body meets obstacles: the flat triangles of its boundary (four of the six nodes of a quadratic face),
@@ -48,7 +50,7 @@ namespace Exemplar
     ShareDerivatives
     no_derivatives() const;
 
-    /// Chain rule: add the derivatives of a function of shares and squares by Young's modulus of the cells and by the
+    /// Chain rule: add the derivatives of a function of shares, areas and squares by Young's modulus of the cells and by the
     /// rest positions of the nodes, by degree of freedom, of which those in the middles of edges are numbers of their own.
     void
     carry(const ShareDerivatives &by_shares,

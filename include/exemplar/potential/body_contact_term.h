@@ -3,6 +3,7 @@
 #define exemplar_body_contact_term_h
 
 #include <exemplar/potential/body_pair_search.h>
+#include <exemplar/potential/contact_slopes.h>
 #include <exemplar/potential/touching_term.h>
 
 #include <string>
@@ -83,11 +84,11 @@ namespace Exemplar
     append_fields(const Vector &positions, std::vector<NodalField> &fields) const override;
 
     NoGradients
-    no_gradients() const override
-    {
-      return { "of bodies that may not pass through themselves or each other",
-               "Set Contact/Self and Contact/Bodies = false." };
-    }
+    no_gradients() const override;
+
+    /// Derivatives of the slope along a displacement, at these positions.
+    TouchingSlopes
+    slopes(const Vector &positions, const Vector &along, const FESpace &fe_space) const;
 
     void
     save(boost::archive::binary_oarchive &archive) const override;
@@ -115,6 +116,10 @@ namespace Exemplar
     template <typename Visit>
     void
     visit_pairs(const Vector &positions, double range, const Visit &visit) const;
+
+    /// Add what a stiffness, and the part of almost parallel edges, have of the surface at rest.
+    void
+    add_origins(const BodyTouch &touch, const ContactSlope &slope, ShareDerivatives &by) const;
 
     /// Pairs that were found last, which are asked for again and again at the same place.
     struct Found

@@ -88,6 +88,10 @@ namespace Exemplar
     void
     append_meeting(const Vector &from, const Vector &to, std::vector<BodyTouch> &touches) const;
 
+    /// A pair where nodes are at these places.
+    BodyTouch
+    touch_at(const BodyPair &pair, const Places &places) const;
+
     BodyPairCorners
     corners(const BodyPair &pair, const Places &places) const;
 

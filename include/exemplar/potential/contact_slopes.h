@@ -6,7 +6,7 @@
 
 #include <vector>
 
-// The slope of a contact along changes a of its nodes' positions, the sum of a_i.f_i with the derivatives f_i of its
+// The slope of a touch along changes a of its nodes' positions, the sum of a_i.f_i with the derivatives f_i of its
 // energy by positions, and the derivatives of that by all that it depends on, for gradients.
 
 namespace Exemplar
@@ -19,13 +19,13 @@ namespace Exemplar
     double          by_stiffness = 0.; ///< by the full k
     double          by_width     = 0.;
     double          by_distance  = 0.; ///< at fixed nearest points: what a radius takes off
-    double          by_square = 0.; ///< by the logarithm of the square of the body's edge at rest
-    double          by_coefficient = 0.; ///< of friction
+    double by_square      = 0.; ///< by the logarithm of the square of an edge of the body at rest
+    double by_coefficient = 0.; ///< of friction
   };
 
   /// Derivatives of the slope of the barrier. The distance must be positive.
   ContactSlope
-  slope_of_barrier(const Contact &contact, const ContactGradient &along);
+  slope_of_barrier(const Touch &touch, const ContactGradient &along);
 
   /// How a contact that rubs has moved since the step has begun.
   struct ContactMotion
@@ -47,9 +47,36 @@ namespace Exemplar
                         const ContactGradient &along,
                         ContactSlope          &slope);
 
-  /// Derivatives of the slope of all obstacles along a displacement.
-  struct ObstacleSlopes
+  /// Derivatives of the slope of all that touches, along a displacement.
+  struct TouchingSlopes
   {
+    /// Zeros, but for what friction has.
+    TouchingSlopes(const std::size_t n_dofs, const std::size_t n_cells)
+        : by_positions(n_dofs), by_young(n_cells), by_rest_positions(n_dofs),
+          by_first_positions(n_dofs)
+    {
+    }
+
+    Vector              by_positions;
+    Vector              by_start; ///< by what slips are counted from; empty without friction
+    std::vector<double> by_young; ///< by cell
+    Vector by_rest_positions;     ///< those in the middles of edges are numbers of their own
+    Vector by_first_positions;    ///< by those from which pairs have widths of their own
+  };
+
+  /// The values of a field at the nodes of a gap.
+  ContactGradient
+  at_nodes(const Gap &gap, const Vector &field);
+
+  /// Add to a field at the nodes of a gap.
+  void
+  add_at_nodes(const Gap &gap, const ContactGradient &derivatives, Vector &to);
+
+  /// Derivatives of the slope of all obstacles along a displacement.
+  struct ObstacleSlopes : TouchingSlopes
+  {
+    using TouchingSlopes::TouchingSlopes;
+
     /// By what an obstacle is.
     struct OfObstacle
     {
@@ -57,11 +84,6 @@ namespace Exemplar
       double       by_radius = 0., by_coefficient = 0.;
     };
 
-    Vector by_positions;
-    Vector by_start; ///< by what slips are counted from; empty without friction
-    std::vector<double> by_young; ///< by cell
-    Vector by_rest_positions;     ///< those in the middles of edges are numbers of their own
-    Vector by_first_positions;    ///< by those from which pairs have widths of their own
     std::vector<OfObstacle> of_obstacles;
   };
 } // namespace Exemplar

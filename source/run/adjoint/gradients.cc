@@ -123,7 +123,7 @@ namespace Exemplar
     const ExampleParameters &examples = problem.parameters.examples;
     if ((!examples.weights_per_region || examples.region_blend_length == 0.)
         && examples.regions == RegionsOfExamples::none && !problem.body.mesh.is_shell()
-        && knows_starts_beside_obstacles(problem))
+        && knows_starts_in_contact(problem))
       result.rest_positions = negative(std::move(slope.by_rest_positions));
     result.obstacles = of_obstacles(problem, slope);
     return result;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/potential/body_contact_term.h>
 #include <exemplar/run/adjoint/slope_of_contact.h>
 
 #include <algorithm>
@@ -31,25 +32,40 @@ namespace Exemplar
   void
   add_slope_of_contact(const Problem &problem, const Direction &direction, SlopeDerivatives &sums)
   {
-    const ObstacleTerm *term = find_obstacle_term(problem);
-    if (term == nullptr)
-      return;
     const FESpace &fe_space = problem.body.fe_space;
-    ObstacleSlopes slopes   = term->slopes(problem.state.positions, direction.positions, fe_space);
-    sums.by_positions += slopes.by_positions;
-    for (std::size_t cell = 0; cell < slopes.by_young.size(); ++cell)
-      sums.by_young[cell] += slopes.by_young[cell];
-    Vector &by_rest = slopes.by_rest_positions;
-    if (begins_at_rest(problem))
-      by_rest += slopes.by_first_positions;
-    add_by_vertices(fe_space.numbering(), by_rest, sums.by_rest_positions);
-    sums.by_start     = std::move(slopes.by_start);
-    sums.of_obstacles = std::move(slopes.of_obstacles);
+    const auto     add      = [&](TouchingSlopes &slopes)
+    {
+      sums.by_positions += slopes.by_positions;
+      for (std::size_t cell = 0; cell < slopes.by_young.size(); ++cell)
+        sums.by_young[cell] += slopes.by_young[cell];
+      Vector &by_rest = slopes.by_rest_positions;
+      if (begins_at_rest(problem))
+        by_rest += slopes.by_first_positions;
+      add_by_vertices(fe_space.numbering(), by_rest, sums.by_rest_positions);
+    };
+    if (const ObstacleTerm *const term = find_obstacle_term(problem))
+    {
+      ObstacleSlopes slopes = term->slopes(problem.state.positions, direction.positions, fe_space);
+      add(slopes);
+      sums.by_start     = std::move(slopes.by_start);
+      sums.of_obstacles = std::move(slopes.of_obstacles);
+    }
+    for (const TouchingTerm *const term : touching_terms(problem))
+      if (const auto *const of_bodies = dynamic_cast<const BodyContactTerm *>(term))
+      {
+        TouchingSlopes slopes
+            = of_bodies->slopes(problem.state.positions, direction.positions, fe_space);
+        add(slopes);
+      }
   }
 
   bool
-  knows_starts_beside_obstacles(const Problem &problem)
+  knows_starts_in_contact(const Problem &problem)
   {
+    const bool has_pose_function = !problem.parameters.initial.pose_function.empty();
+    if (problem.actions.body_contacts != nullptr && has_pose_function
+        && !problem.actions.body_contacts->own_widths.empty())
+      return false;
     if (problem.actions.obstacles == nullptr)
       return true;
     const Obstacles &obstacles = *problem.actions.obstacles;
@@ -59,6 +75,6 @@ namespace Exemplar
                       [](const Obstacle &obstacle) { return obstacle.was_set_back(); });
     const bool has_widths
         = std::any_of(widths.begin(), widths.end(), [](const auto &own) { return !own.empty(); });
-    return !is_set_back && (!has_widths || problem.parameters.initial.pose_function.empty());
+    return !is_set_back && (!has_widths || !has_pose_function);
   }
 } // namespace Exemplar

@@ -5,7 +5,7 @@
 #include <exemplar/run/adjoint/slope_derivatives.h>
 #include <exemplar/run/problem/obstacle_start.h>
 
-// The slope of what obstacles do to the body.
+// The slope of what obstacles do to the body, and the body to itself.
 
 namespace Exemplar
 {
@@ -14,10 +14,10 @@ namespace Exemplar
   void
   add_slope_of_contact(const Problem &problem, const Direction &direction, SlopeDerivatives &sums);
 
-  /// Whether rest positions, by which problems are made anew, have a known effect on how the obstacles suit the body
-  /// where it begins.
+  /// Whether rest positions, by which problems are made anew, have a known effect on how obstacles, and widths of pairs of
+  /// the body, suit it where it begins.
   bool
-  knows_starts_beside_obstacles(const Problem &problem);
+  knows_starts_in_contact(const Problem &problem);
 } // namespace Exemplar
 
 #endif
