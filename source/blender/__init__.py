@@ -10,6 +10,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, Po
 from . import results, scene_files
 from .exemplar_blender import Failure
 from .job import FaultSearch, Job
+from .scene_files import is_shell
 from .surfaces import Surface
 from .words import in_artists_words
 
@@ -22,6 +23,10 @@ HIDDEN = "exemplar hidden"  # custom property of objects in whose place there is
 
 
 class Settings(bpy.types.PropertyGroup):
+    kind: EnumProperty(name="Body", default="SOLID", items=[
+        ("SOLID", "Solid", "The object is the closed surface of a body, which is filled with cells"),
+        ("SHELL", "Shell", "The object is a sheet with a thickness, as cloth, paper, leaves and faces: open or closed")])
+    thickness: FloatProperty(name="Thickness", default=1e-3, min=1e-9, precision=4, description="How thick the sheet is [m]")
     cells: IntProperty(name="Cells", default=10000, min=10, max=10 ** 7, description="How many tetrahedra fill the body, about")
     stiffness: FloatProperty(name="Stiffness", default=1e5, min=1e-3, precision=0, description="Young's modulus [Pa]")
     importance: FloatProperty(name="Importance", default=0.9, min=0, max=1, subtype="FACTOR",
@@ -47,6 +52,9 @@ class Settings(bpy.types.PropertyGroup):
     inner_damping: FloatProperty(name="Inner damping", default=0, min=0, precision=4,
                                  description="How much the body resists bending fast, as flesh does [s]")
     steps: IntProperty(name="Steps", default=1, min=1, max=1000, description="Steps of the simulation a frame: more for fast motion")
+    touches_itself: BoolProperty(name="Touches itself",
+                                 description="No part of the body passes through another one, with the friction of its Collision physics, if it "
+                                             "has these. A step takes many times as long")
     repair: BoolProperty(name="Repair", description="Mend holes and crossing faces before the body is filled")
     token: StringProperty(options={"HIDDEN"})  # identity of the body, whatever its name becomes
 
@@ -356,12 +364,13 @@ class Panel(bpy.types.Panel):
         else:
             settings = body.exemplar
             layout.label(text=scale_line(body, context.scene))
-            for name in ("cells", "stiffness", "importance"):
+            layout.prop(settings, "kind")
+            for name in ("thickness" if is_shell(settings) else "cells", "stiffness", "importance"):
                 layout.prop(settings, name)
             for name in ("follow", "pin"):
                 layout.prop_search(settings, name, body, "vertex_groups")
             row = layout.row()
-            row.enabled = bool(scene_files.gravity_of(context.scene).any())
+            row.enabled = bool(scene_files.gravity_of(context.scene).any()) and not is_shell(settings)
             row.prop(settings, "balanced")
         layout.operator("exemplar.cancel" if Running.is_on() else "exemplar.run")
         for line in Running.said.splitlines():
@@ -382,8 +391,12 @@ class MorePanel(bpy.types.Panel):
 
     def draw(self, context):
         settings = context.object.exemplar
-        for name in ("weights", "regions", "damping", "inner_damping", "steps", "repair"):
+        for name in ("weights", "regions", "damping", "inner_damping", "steps"):
             self.layout.prop(settings, name)
+        column = self.layout.column()
+        column.enabled = not is_shell(settings)
+        for name in ("touches_itself", "repair"):
+            column.prop(settings, name)
         for handle in ("follow", "pin"):
             row = self.layout.row(align=True)
             row.enabled = bool(getattr(settings, handle))

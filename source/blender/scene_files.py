@@ -14,6 +14,7 @@ from .surfaces import Surface, at_rest, group_weights, in_world, seen_motion, wo
 # Painted vertex groups of these names become maps: the key, and the factors of the weights 0 and 1.
 PAINTED = {"exemplar stiffness": ("Young's modulus map", (0.1, 10.)), "exemplar density": ("Density map", (0.1, 10.)),
            "exemplar importance": ("Importance map", None)}
+PAINTED_OF_SHELLS = {"exemplar thickness": ("Thickness map", (0.1, 10.))}
 TENSION = "exemplar tension"  # a custom property of the body in Pa, keyed or driven, as by a bone's rotation: how its muscle pulls
 MUSCLE = "exemplar muscle"    # the painted vertex group that pulls; without one all does
 FIBRES = ("exemplar fibres from", "exemplar fibres to")  # vertex groups between which fibres go
@@ -37,6 +38,15 @@ class Shot:
     obstacles: list = field(default_factory=list)  # names of the objects with Collision physics
     tension: list = field(default_factory=list)    # of the body's muscle in each frame [Pa]
     has_muscle: bool = False                       # whether a vertex group says where it is
+
+
+def is_shell(settings):
+    return settings.kind == "SHELL"
+
+
+def painted_of(settings):
+    """What may be painted."""
+    return {**PAINTED, **(PAINTED_OF_SHELLS if is_shell(settings) else {})}
 
 
 def unit_scale(scene):
@@ -115,6 +125,8 @@ def check(body, settings, scene):
         raise Failure(f"{body.name} has no faces. The body is the object whose closed surface it is.")
     if abs(body.matrix_world.determinant()) < 1e-30:
         raise Failure(f"{body.name} has a scale of 0. A body has an extent along all axes.")
+    if is_shell(settings):
+        check_shell(body, settings)
     for name in (settings.follow, settings.pin):
         if name and name not in body.vertex_groups:
             raise Failure(f"{body.name} has no vertex group '{name}'. Choose another, or none.")
@@ -132,6 +144,15 @@ def check(body, settings, scene):
     for label, begin, end in (("Follow", settings.follow_from, settings.follow_until), ("Pin", settings.pin_from, settings.pin_until)):
         if end and begin == end:
             raise Failure(f"{label} is caught and let go in the same frame, {end}. Give two, or 0 for the whole shot.")
+
+
+def check_shell(body, settings):
+    """Throws Failure for what is of solid bodies alone."""
+    if settings.regions == "AUTO":
+        raise Failure(f"Regions that are found are of solid bodies, and {body.name} is a shell. Set Regions to None or Painted.")
+    if TENSION in body:
+        raise Failure(f"Muscles are in solid bodies, and {body.name} is a shell with the property '{TENSION}'. Remove the property, or set Body to "
+                      "Solid.")
 
 
 def tension_of(body, scene):
@@ -187,12 +208,18 @@ def is_balanced(settings, scene, shot, handles):
     """Whether the body stands as it is drawn: something must hold it in the first frame, and something pull. Obstacles bear it otherwise."""
     def from_the_start(keys):
         return "From" not in keys and keys.get("Until") != "0"
-    return settings.balanced and not shot.obstacles and not shot.tension and bool(gravity_of(scene).any()) and any(map(from_the_start, handles.values()))
+    stands_alone = not (is_shell(settings) or settings.touches_itself or shot.obstacles or shot.tension)
+    return settings.balanced and stands_alone and bool(gravity_of(scene).any()) and any(map(from_the_start, handles.values()))
 
 
 def notes_of(body, settings, scene, shot, is_posed):
+    if is_shell(settings):
+        worn = [item.name for item in worn_by(body)]
+        return [f"{', '.join(worn)}: a shell carries nothing, so what {body.name} wears stays where it is."] if worn else []
     if not settings.balanced or not gravity_of(scene).any():
         return []
+    if settings.touches_itself:
+        return [f"{body.name} touches itself, and Balanced does nothing beside that: the body sags under its weight where it is held."]
     if shot.tension:
         return [f"{body.name} has a muscle, and Balanced does nothing beside '{TENSION}': the body sags under its weight where it is held."]
     if shot.obstacles:
@@ -218,6 +245,11 @@ def write_obstacle(shown, number, scene, directory):
     return keys
 
 
+def friction_of(body):
+    """Of its Collision physics, if it has these."""
+    return body.collision.friction_factor if any(modifier.type == "COLLISION" for modifier in body.modifiers) else 0.
+
+
 def scene_text(body, settings, scene, shot, painted, is_posed, obstacles):
     rate = frames_per_second(scene)
     keys = Keys([f"Expect the object {body.name} to move through the frames {scene.frame_start} to {scene.frame_end}.",
@@ -227,13 +259,16 @@ def scene_text(body, settings, scene, shot, painted, is_posed, obstacles):
                  *(f"Region {i} is the vertex group {name}." for i, name in enumerate(shot.regions, 1)),
                  *(f"obstacle_{i}.obj is the object {name}." for i, name in enumerate(shot.obstacles, 1))])
     keys.add("", Scene="dynamic")
-    mesh = {"File": "body.obj", "Cells": settings.cells, "Repair": truth(settings.repair), "Scale": f"{unit_scale(scene):.7g}"}
+    of_kind = {"Kind": "shell"} if is_shell(settings) else {"Cells": settings.cells, "Repair": truth(settings.repair)}
+    mesh = {"File": "body.obj", **of_kind, "Scale": f"{unit_scale(scene):.7g}"}
     if shot.worn:
         mesh["Carry"] = ", ".join(f"worn_{i}.obj" for i in range(1, len(shot.worn) + 1))
     keys.add("Mesh", **mesh)
     material = {"Young's modulus": f"{settings.stiffness:.7g}"}
+    if is_shell(settings):
+        material["Thickness"] = f"{settings.thickness:.7g}"
     for name in painted:
-        key, factors = PAINTED[name]
+        key, factors = painted_of(settings)[name]
         column = name.split()[1]
         material[key] = f"groups.csv:{column}" + (f" from {factors[0]} to {factors[1]}" if factors else "")
     if shot.tension:
@@ -259,6 +294,8 @@ def scene_text(body, settings, scene, shot, painted, is_posed, obstacles):
         keys.add("Obstacles", Names=", ".join(obstacles))
     for name, of_obstacle in obstacles.items():
         keys.add(f"Obstacles/{name}", **of_obstacle)
+    if settings.touches_itself and not is_shell(settings):
+        keys.add("Contact", Self="true", Friction=f"{friction_of(body):.9g}")
     gravity = gravity_of(scene)
     if gravity.any():
         keys.add("Loads", Gravity=", ".join(f"{g:.7g}" for g in gravity), Balanced=truth(is_balanced(settings, scene, shot, handles)))
@@ -326,12 +363,13 @@ def write_scene(body, settings, scene, directory):
         poses = examples_of(surface, keys)
         for i, shape in enumerate(poses.values(), 1):
             write_obj(directory / f"pose_{i}.obj", in_world(shape, matrix), surface.faces())
-        shot = Shot(directory / "scene.prm", surface.faces(), [list(row) for row in matrix], list(poses), write_worn(body, directory),
+        worn = [] if is_shell(settings) else write_worn(body, directory)
+        shot = Shot(directory / "scene.prm", surface.faces(), [list(row) for row in matrix], list(poses), worn,
                     regions_of(body) if settings.regions == "PAINTED" and poses else [], scene.frame_end - scene.frame_start,
                     settings.steps, obstacles=[shown.name for shown in found], tension=tension_of(body, scene),
                     has_muscle=MUSCLE in body.vertex_groups)
         scene.frame_set(scene.frame_start)
-        painted = [name for name in PAINTED if name in body.vertex_groups]
+        painted = [name for name in painted_of(settings) if name in body.vertex_groups]
         write_tables(surface, settings, painted, shot.regions, directory)
         is_posed = write_motion(surface, settings, scene, directory)
         shot.notes = notes_of(body, settings, scene, shot, is_posed)

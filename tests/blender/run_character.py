@@ -6,6 +6,7 @@
 CASE is a function of this file without its `case_`.
 """
 import json
+import math
 import shutil
 import sys
 from pathlib import Path
@@ -250,6 +251,41 @@ def case_obstacles():
     found["least"] = [min(x[2] for x in frame) for frame in run_places()]
     floor.modifiers.new("grow", "BUILD").frame_duration = 10
     found["grows"] = run(body, follow="", pin="", stiffness=1e6)
+    return found
+
+
+def case_shell():
+    """A sheet of quads, held along one side, with a key that curls it and a collision object in its way; it wears a badge."""
+    vertices = [(i / 8 - .5, j / 8 - .5, 1.) for j in range(9) for i in range(9)]
+    sheet = make_object("bar", vertices, [(9 * j + i, 9 * j + i + 1, 9 * j + i + 10, 9 * j + i + 9) for j in range(8) for i in range(8)])
+    sheet.shape_key_add(name="Basis")
+    add_key(sheet, "curl", [(math.sin(.5 + x) - .5, y, 1. - math.cos(.5 + x) + 1.) for x, y, _ in vertices])
+    add_group(sheet, "edge", lambda x, y, z: x < -.45)
+    add_group(sheet, "exemplar thickness", lambda x, y, z: y > 0, .5)
+    badge = make_object("badge", [(0., 0., 1.1), (.1, 0., 1.1), (0., .1, 1.1)], [(0, 1, 2)])
+    badge.parent = sheet
+    table = make_object("table", [(-2., -2., .6), (2., -2., .6), (2., 2., .6), (-2., 2., .6)], [(0, 1, 2, 3)])
+    table.modifiers.new("touch", "COLLISION")
+    settings = {"follow": "", "pin": "edge", "kind": "SHELL", "thickness": 5e-3, "stiffness": 1e5, "importance": .1}
+    found = {"said": run(sheet, **settings), "prm": scene_file(), "run": run_places()}
+    result = bpy.data.objects["bar result"]
+    found["shown"] = [places(result, frame) for frame in range(3, 19)]
+    found["keys"] = [key.name for key in result.data.shape_keys.key_blocks]
+    found["found regions"] = run(sheet, **settings, regions="AUTO")
+    sheet["exemplar tension"] = 1.
+    found["muscle"] = run(sheet, **settings, regions="NONE")
+    return found
+
+
+def case_touches_itself():
+    """Two bars in one object, of which the upper one falls on the lower one."""
+    vertices, faces = bar()
+    upper = [(.6 * y, .6 * x, z / 4 + 4.3) for x, y, z in vertices]
+    body = make_object("bar", vertices + upper, faces + [[i + len(vertices) for i in reversed(face)] for face in faces])
+    add_group(body, "feet", lambda x, y, z: z == 0)
+    found = {"said": run(body, follow="", stiffness=1e6, touches_itself=True), "prm": scene_file()}
+    found["least"] = [min(x[2] for x in frame[len(vertices):]) for frame in run_places()]
+    found["top"] = [max(x[2] for x in frame[:len(vertices)]) for frame in run_places()]
     return found
 
 

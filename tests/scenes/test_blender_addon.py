@@ -179,6 +179,30 @@ class Characters(SceneTest):
         self.assertLess(found["least"][-1], 1.)
         self.assertIn("What has Collision physics keeps its vertices", found["grows"])
 
+    def test_a_shell(self):
+        found = self.use("shell")
+        self.assertIn("Done.", found["said"])
+        self.assertIn("badge: a shell carries nothing, so what bar wears stays where it is.", found["said"])
+        for line in ("Kind = shell", "Thickness = 0.005", "Thickness map = groups.csv:thickness from 0.1 to 10.0", "Poses = pose_1.obj",
+                     "Select = map groups.csv:pin above 0.5", "Shape = surface obstacle_1.obj"):
+            self.assertIn(f"set {line}\n", found["prm"])
+        for key in ("Cells", "Repair", "Carry", "Balanced = true"):
+            self.assertNotIn(key, found["prm"])
+        self.assertEqual(found["keys"], ["Basis", "curl"])
+        self.assert_shows_the_run(found)
+        least = [min(z for _, _, z in frame) for frame in found["run"]]
+        self.assertGreater(min(least), .6)  # half of the thickness above the table at least
+        self.assertLess(least[-1], .65)
+        self.assertIn("Regions that are found are of solid bodies, and bar is a shell", found["found regions"])
+        self.assertIn("Muscles are in solid bodies", found["muscle"])
+
+    def test_a_body_that_touches_itself(self):
+        found = self.use("touches_itself")
+        self.assertIn("bar touches itself, and Balanced does nothing beside that", found["said"])
+        self.assertIn("set Self = true\n", found["prm"])
+        self.assertLess(found["least"][-1], 4.1)  # from 4.3
+        self.assertTrue(all(least > top - .02 for least, top in zip(found["least"], found["top"])), (found["least"], found["top"]))
+
     def test_a_bone_drives_a_muscle(self):
         found = self.use("tension")
         self.assertIn("no vertex with a weight above 0.5 in a vertex group 'exemplar fibres from'", found["missing"])

@@ -7,7 +7,7 @@ import struct
 import unittest
 
 import surfaces
-from exemplar_runner import SceneTest, read_msh
+from exemplar_runner import SceneTest, read_msh, write_scene
 from surfaces import joined, moved
 
 STATIC = {"Scene": "static", "Mesh/File": "body.msh", "Time/Increments": "1", "Handles/Names": "base",
@@ -47,6 +47,27 @@ class MeshCommandTest(SceneTest):
         first = (self.directory / "body.msh").read_bytes()
         self.made("ball.obj", 2000, "--quiet")
         self.assertEqual((self.directory / "body.msh").read_bytes(), first)
+
+    def test_shells_side_by_side_become_pieces(self):
+        """Two balls and a cavity in one of them: what is between them is empty, each has its volume, and in a scene each flies alone."""
+        vertices, faces = surfaces.sphere(2)
+        hollow = joined((vertices, faces), ([[.4 * c for c in x] for x in vertices], [face[::-1] for face in faces]))
+        both = joined(hollow, (moved([[.5 * c for c in x] for x in vertices], (2, 0, 0)), faces))
+        self.surface("balls.obj", *both)
+        run = self.mesh("balls.obj", 2000)
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        self.assertIn("2 shells side by side (", run.stdout)
+        volume = self.table()["volume"]
+        self.assertLess(abs(volume / (4 / 3 * math.pi * (1 - .4 ** 3 + .5 ** 3)) - 1), .1)
+        write_scene(self.directory / "fall.prm", {"Scene": "dynamic", "Mesh/File": "body.msh", "Handles/Names": "one",
+                                                  "Handles/one/Select": "box -2 -2 -2 1.2 2 2", "Loads/Gravity": "0, 0, -1",
+                                                  "Material/Mass matrix": "lumped", "Time/Step": "0.1", "Time/End": "1"})
+        run = self.call("fall.prm", "--output", "out")
+        self.assertEqual((run.status, run.stderr), (0, ""))
+        first, last = (read_msh(self.directory / name).nodes for name in ("body.msh", "out/final.msh"))
+        for number, x in last.items():
+            fallen = .55 if first[number][0] > 1.4 else 0.  # g h^2 n (n + 1) / 2 by implicit Euler
+            self.assertLess(math.dist(x, (first[number][0], first[number][1], first[number][2] - fallen)), 1e-6)
 
     def test_finer_triangles_give_the_same_mesh(self):
         """Of a ring with a narrow hole, where surfaces made anew intersect."""

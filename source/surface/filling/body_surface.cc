@@ -128,9 +128,6 @@ namespace Exemplar
     checked.surface                = triangulate(read, &checked.faces);
     const SurfaceFindings findings = check_surface(checked);
     BodySurface body{ checked.surface, checked.surface, read.group_names, findings.notes };
-    if (findings.several_bodies)
-      throw UserError(file.string() + ": this is more than one body:" + list_lines(findings.faults)
-                      + "\n  A scene has one. Join them where they were made, or mesh each alone.");
     if (is_flat(checked.surface))
       throw UserError(file.string()
                       + ": the surface does not bound a body:" + list_lines(findings.faults)

@@ -299,27 +299,28 @@ namespace Exemplar
                     + face_numbers(triangles));
     }
 
-    /// Finds shells side by side or inside out. Precondition: closed shells that do not intersect.
+    /// Notes shells side by side, and finds those that are inside out. Precondition: closed shells that do not intersect.
     void
     SurfaceCheck::find_shells()
     {
-      const auto around       = enclosing_shells(surface, findings.shells, findings.n_shells);
-      const auto n_free       = std::count(around.begin(), around.end(), findings.n_shells);
-      findings.several_bodies = n_free > 1;
-      if (findings.several_bodies)
+      const auto around = enclosing_shells(surface, findings.shells, findings.n_shells);
+      const auto n_free = std::count(around.begin(), around.end(), findings.n_shells);
+      if (n_free > 1)
       {
-        std::string where;
-        for (unsigned int shell = 0; shell < findings.n_shells; ++shell)
+        constexpr std::size_t most_shown = 4;
+        std::size_t           n_shown    = 0;
+        std::string           where;
+        for (unsigned int shell = 0; shell < findings.n_shells && n_shown < most_shown; ++shell)
           if (around[shell] == findings.n_shells)
           {
             const TriangleSurface part = shell_of(surface, findings.shells, shell);
-            if (!where.empty()) // shells beside the first
-              add_shell("shells side by side", shell);
-            where += fmt::format("{}{} triangles at {}", where.empty() ? "of " : ", ",
+            where += fmt::format("{}{} triangles at {}", n_shown++ == 0 ? "" : ", ",
                                  part.triangles.size(),
                                  place_text(part.vertices[part.triangles[0][0]]));
           }
-        add_fault("shells side by side", static_cast<std::size_t>(n_free), where);
+        findings.notes.push_back(fmt::format(
+            "{} shells side by side ({}{}), each of which becomes a piece of its own", n_free,
+            where, n_free > static_cast<std::ptrdiff_t>(most_shown) ? ", ..." : ""));
       }
       for (unsigned int shell = 0; shell < findings.n_shells; ++shell)
         if (around[shell] == findings.n_shells

@@ -30,9 +30,7 @@ namespace Exemplar
     std::vector<std::string> faults;
     /// All faces of the faults, or their vertices where these tell more; some more than once.
     std::vector<FaultyElement> elements;
-    /// Whether the only fault is that there are several bodies, which no repair joins.
-    bool several_bodies = false;
-    /// Harmless findings, a line each: vertices that no face uses, or that coincide.
+    /// Harmless findings, a line each: vertices that no face uses, or that coincide; shells side by side.
     std::vector<std::string> notes;
     /// The shell of each triangle (component connected through edges), numbered by first triangle.
     std::vector<unsigned int> shells;
@@ -41,8 +39,8 @@ namespace Exemplar
 
   /// Look for faces without area, holes, edges of more than two faces, vertices where several fans
   /// of faces meet, faces that are turned against their neighbours, shells that are inside out,
-  /// intersecting faces and shells side by side. Intersections are looked for where edges and
-  /// vertices are as they should be; shells side by side are a fault, shells within shells are not.
+  /// and intersecting faces. Intersections are looked for where edges and vertices are as they should be; shells side by
+  /// side bound pieces of a body, and those within others its materials and cavities.
   SurfaceFindings
   check_surface(const CheckedSurface &checked);
 
