@@ -396,4 +396,12 @@ namespace Exemplar
                               "modulus or Poisson's ratio can paint. Remove the map.");
         });
   }
+
+  std::string
+  too_thin_text(const std::string &key, const double thickness)
+  {
+    return key + " = " + shortest_text(thickness)
+           + ": a shell (Mesh/Kind) needs a thickness of at least 1e-6 m. Set it to what the sheet "
+             "measures, 0.001 for a millimetre.";
+  }
 } // namespace Exemplar

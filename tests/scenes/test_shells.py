@@ -179,6 +179,22 @@ class Refused(SceneTest):
         self.refuse("Thickness", {"Material/Thickness": "0"})
         self.refuse("half of the edges", {"Material/Thickness": "0.2"})
 
+    def test_thickness_of_regions_alone(self):
+        """A strip of two groups, of which each says how thick it is: the same as if all were."""
+        flat, triangles = strip(LENGTH, WIDTH, COLUMNS, ROWS)
+        lines = obj_text(flat, triangles).splitlines()
+        first = next(i for i, line in enumerate(lines) if line.startswith("f "))
+        middle = (first + len(lines)) // 2
+        self.write("rest.obj", "\n".join([*lines[:first], "g one", *lines[first:middle], "g two", *lines[middle:]]) + "\n")
+        keys = {"Mesh/File": "rest.obj", "Handles/Names": "left", "Handles/left/Select": "box -1 -9 -9 1e-6 9 9", "Loads/Gravity": "0, 0, -0.1",
+                "Material/Thickness": "0", "Material/region one/Thickness": "0.01"}
+        keys = {**SHELL, "Scene": "static", **keys}
+        run = self.attempt(keys)
+        self.assertIn("Material/Thickness = 0: a shell", run.stderr)
+        apart = self.solve({**keys, "Material/region two/Thickness": "0.01"}, output="apart")
+        whole = self.solve({**keys, "Material/region one/Thickness": None, "Material/Thickness": "0.01"}, output="whole")
+        self.assertEqual((apart / "final.msh").read_bytes(), (whole / "final.msh").read_bytes())
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -74,6 +74,12 @@ namespace Exemplar
     lumped
   };
 
+  constexpr double least_thickness = 1e-6; ///< of a shell [m]
+
+  /// That a key, or what it leaves to regions, makes a shell thinner than that.
+  std::string
+  too_thin_text(const std::string &key, double thickness);
+
   /// Subsection Material.
   struct MaterialParameters
   {

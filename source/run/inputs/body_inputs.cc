@@ -47,6 +47,8 @@ namespace Exemplar
             (region == regions.end() ? parameters.everywhere : region->second).thickness);
         if (!painted.values.empty())
           thicknesses.back() = (painted.is_factor ? thicknesses.back() : 1.) * painted.values[cell];
+        if (!(thicknesses.back() >= least_thickness))
+          throw UserError(too_thin_text("Material/Thickness", thicknesses.back()));
         if (thicknesses.back() > thickest * mean)
           throw UserError(fmt::format(
               "Material/Thickness = {}: is more than half of the edges' mean length, {} m, for "

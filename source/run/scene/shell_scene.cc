@@ -7,8 +7,6 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr double least_thickness = 1e-6; ///< [m]
-
     /// A key of a solid that the scene sets, and how it is done without.
     std::string
     key_of_solids(const SceneParameters &scene)
@@ -56,16 +54,17 @@ namespace Exemplar
             { !is_shell && handle.slopes != HandleParameters().slopes,
               "Handles/" + handle.name
                   + "/Slopes is of shells. Set Mesh/Kind = shell, or remove it." } });
+    const bool has_regions = !material.regions.empty() || !material.named_regions.empty();
     material.for_each_section(
         [&](const ElasticConstants &constants, const std::string &section)
         {
+          // triangles of no region are refused where they are known, if regions alone say how thick they are
+          const bool may_be_left_out
+              = has_regions && section == "Material" && constants.thickness == 0.;
           refuse({ { !is_shell && constants.thickness > 0.,
                      section + "/Thickness is of shells. Set Mesh/Kind = shell, or remove it." },
-                   { is_shell && !(constants.thickness >= least_thickness),
-                     section + "/Thickness = " + shortest_text(constants.thickness)
-                         + ": a shell (Mesh/Kind) needs a thickness of at least 1e-6 m. Set it to "
-                           "what the "
-                           "sheet measures, 0.001 for a millimetre." } });
+                   { is_shell && !(constants.thickness >= least_thickness) && !may_be_left_out,
+                     too_thin_text(section + "/Thickness", constants.thickness) } });
         });
     refuse({ { !is_shell && !material.thickness_map.empty(),
                "Material/Thickness map is of shells. Set Mesh/Kind = shell, or remove it." },
