@@ -22,7 +22,8 @@ MUSCLE = "exemplar muscle"    # the painted vertex group that pulls; without one
 FIBRES = ("exemplar fibres from", "exemplar fibres to")  # vertex groups between which fibres go
 REGION = "exemplar region "  # vertex groups whose names begin so are regions with weights of their own
 EARTH = 9.81  # [m/s^2]
-STILL = 1e-5  # of the body's size: what moves less is taken to be at rest
+STILL = 1e-5  # of the smallest body's size: what moves less is taken to be at rest
+LOOSE = .01   # of the volume: smaller parts are dropped by Repair
 
 
 @dataclass
@@ -58,6 +59,9 @@ class Shot:
 
     def names(self):
         return ", ".join(part.name for part in self.parts)
+
+    def rest_of(self, part):
+        return self.rest[part.vertices.start:part.vertices.stop]
 
     def faces(self):
         return joined_faces([part.faces for part in self.parts], [part.vertices for part in self.parts])
@@ -198,6 +202,15 @@ def check_several(bodies):
                       f"{bodies[0].name} has {listed(bodies[1:])}.")
 
 
+def check_sizes(shot):
+    """Throws Failure for bodies that Repair would drop without a word."""
+    volumes = {part.name: volume(shot.rest_of(part), part.faces) for part in shot.parts}
+    small = [name for name, own in volumes.items() if own < LOOSE * sum(volumes.values())]
+    if small:
+        raise Failure(f"Repair drops what has less than 1 % of the volume of all bodies, as {', '.join(small)} has. Switch Repair off and mend the "
+                      "surfaces in Blender, or take it out of More bodies.")
+
+
 def check_muscle(body):
     for name in FIBRES if TENSION in body else ():
         if name not in body.vertex_groups or not group_weights(body, body.data, name).max() > .5:
@@ -312,14 +325,18 @@ def without_balance(settings, scene, shot, is_posed):
 def vertices_near(shot, place):
     """Numbers of the vertices that are at rest within a cell's size of a place [m], and of the nearest."""
     distances = np.linalg.norm(shot.rest - np.array(place) / shot.unit, axis=1)
-    return set(np.flatnonzero(distances <= max(cell_size(shot.rest, shot.faces(), shot.cells), distances.min())).tolist())
+    return set(np.flatnonzero(distances <= max(cell_size(shot), distances.min())).tolist())
 
 
-def cell_size(places, faces, n_cells):
-    """Edge of that many regular tetrahedra in what faces enclose."""
+def cell_size(shot):
+    """Edge of that many regular tetrahedra in all bodies."""
+    return np.cbrt(6. * np.sqrt(2.) * volume(shot.rest, shot.faces()) / shot.cells)
+
+
+def volume(places, faces):
+    """Of what faces enclose."""
     triangles = places[[(face[0], *face[i:i + 2]) for face in faces for i in range(1, len(face) - 1)]]
-    volume = np.einsum("ti,ti->", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2])) / 6.
-    return np.cbrt(6. * np.sqrt(2.) * abs(volume) / n_cells)
+    return abs(np.einsum("ti,ti->", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2]))) / 6.
 
 
 def truth(value):
@@ -417,7 +434,7 @@ def write_worn(bodies, directory):
 def muscle_weights(surface, shot):
     """{column: weights} for the muscle of the first body. Fibres need a way through all bodies: through others, which do not pull, upwards."""
     others = [(places[:, 2] - places[:, 2].min()) / max(np.ptp(places[:, 2]), 1e-30)
-              for places in (shot.rest[part.vertices.start:part.vertices.stop] for part in shot.parts[1:])]
+              for places in map(shot.rest_of, shot.parts[1:])]
     first = surface.surfaces[0]
     ends = [np.concatenate([first.group_weights(name), *of_others]) for name, of_others in
             zip(FIBRES, ([height < 1 / 3 for height in others], [height > 2 / 3 for height in others]))]
@@ -446,8 +463,8 @@ def write_motion(surface, shot, scene, directory):
     """Caches of the handles, and the pose of the first frame. Whether that is another one than at rest."""
     frames = range(scene.frame_start, scene.frame_end + 1 if "follow" in shot.held else scene.frame_start + 1)
     places = surface.motion(scene, frames)
-    start = places[0]
-    is_posed = bool(np.abs(start - shot.rest).max() > STILL * np.linalg.norm(np.ptp(shot.rest, axis=0)))
+    start, size = places[0], min(np.linalg.norm(np.ptp(shot.rest_of(part), axis=0)) for part in shot.parts)
+    is_posed = bool(np.abs(start - shot.rest).max() > STILL * size)
     if is_posed:
         write_obj(directory / "start.obj", start, surface.faces())
         if "pin" in shot.held:
@@ -490,6 +507,8 @@ def write_scene(bodies, scene, directory):
     surface = JoinedSurface(bodies, matrices_at_rest(bodies))
     try:
         shot = make_shot(surface, bodies, scene, directory)
+        if bodies[0].exemplar.repair and len(bodies) > 1:
+            check_sizes(shot)
         scene.frame_set(scene.frame_start)
         found = obstacles_of(bodies, scene)
         obstacles = {f"obstacle {i}": write_obstacle(obstacle, i, scene, directory) for i, obstacle in enumerate(found, 1)}

@@ -5,6 +5,7 @@ import re
 # Keys of a scene, or what messages say of them, and what the artist sees in their place; the first that fits is taken.
 WORDS = [
     (r"[Ss]maller steps \(?Time/Step\)?", "more Steps"), (r"Smaller steps", "More Steps"), (r"smaller steps", "more Steps"),
+    (r"; for a table of all: exemplar mesh --surface .* --list-faults FAULTS\.csv", ""),
     (r", and those of regions and maps alike", ""), (r"Young's modulus is in Pa", "Stiffness is in Pa"),
     (r"Loads/Balanced = true", "Balanced is on"), (r"set Loads/Balanced = false", "switch Balanced off"), (r"Loads/Balanced", "Balanced"),
     (r"Loads/Gravity", "the scene's gravity"),

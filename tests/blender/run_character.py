@@ -385,6 +385,7 @@ def case_bodies_that_change():
     found["hidden"] = [shown.hide_get() for shown in (body, second)]
 
     scene.frame_end = 20000
+    second.data.polygons[0].flip()
     second.exemplar.follow = ""
     found["refused"] += begin(body, **settings)
     while exemplar.poll() is not None and not exemplar.previews():
@@ -395,6 +396,38 @@ def case_bodies_that_change():
     wait(exemplar)
     found.update(cancelled=exemplar.Running.said, seen=[not shown.hide_get() and not shown.hide_render for shown in (body, second)],
                  objects=sorted(item.name for item in bpy.data.objects))
+    return found
+
+
+def case_bodies_with_regions():
+    """An eye on a bone of a body that does not begin at rest: both have painted regions and a key of the same name, and the bone leads both."""
+    body = make_body()
+    rig = make_rig(body, begin=.5)
+    vertices, faces = bar()
+    eye = make_object("eye", [(.3 * x, .3 * y, .1 * z) for x, y, z in vertices], faces)
+    eye.parent, eye.parent_type, eye.parent_bone = rig, "BONE", "high"
+    eye.location = (0., -1.2, .55)
+    eye.shape_key_add(name="Basis")
+    add_key(eye, "bent", [(.3 * x, .3 * y, .13 * z) for x, y, z in vertices])
+    add_group(eye, "back", lambda x, y, z: z == 0)
+    eye.exemplar.follow = "back"
+    more = bpy.data.collections.new("eyes")
+    scene.collection.children.link(more)
+    more.objects.link(eye)
+    add_group(body, "exemplar region top", lambda x, y, z: z > 2.)
+    add_group(body, "exemplar region foot", lambda x, y, z: z < 1.)
+    add_group(eye, "exemplar region lens", lambda x, y, z: z > .2)
+    found = {"posed": places(eye, 3), "said": run(body, more_bodies=more, regions="PAINTED"), "prm": scene_file()}
+    found["run"] = parts_of(run_places())
+    results = [bpy.data.objects["bar result"], bpy.data.objects["eye result"]]
+    found["shown"] = [[places(shown, frame) for frame in range(3, 19)] for shown in results]
+    found["keys"] = [[key.name for key in shown.data.shape_keys.key_blocks] for shown in results]
+    rig.data.pose_position = "REST"
+    exemplar.show_originals(body.exemplar.token)
+    found["at rest"] = places(eye, 3)
+    found["written"] = exemplar.exemplar_blender.read_obj(exemplar.directory_of(body) / "body.obj")[0][len(vertices):].tolist()
+    eye.scale = (.3, .3, .3)
+    found["small"] = run(body, repair=True)
     return found
 
 

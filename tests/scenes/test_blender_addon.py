@@ -249,6 +249,21 @@ class Characters(SceneTest):
         self.assertEqual((found["hidden meanwhile"], found["cancelled"], found["seen"]), ([True, True], "Cancelled.", [True, True]))
         self.assertEqual([name for name in found["objects"] if "running" in name], [])
 
+    def test_a_body_on_a_bone_of_another_one_and_regions_of_both(self):
+        found = self.use("bodies_with_regions")
+        self.assertIn("Done.", found["said"])
+        self.assertIn("set Weight maps = groups.csv:region_1, groups.csv:region_2, groups.csv:region_3\n", found["prm"])
+        self.assertIn("set Poses = pose_1.obj\n", found["prm"])
+        self.assertNotIn("Carry", found["prm"])  # what is a body is not worn
+        self.assertLess(farthest(found["written"], found["at rest"]), 1e-6)
+        self.assertGreater(farthest(found["posed"], found["at rest"]), .5)
+        self.assertLess(farthest(found["run"][1][0], found["posed"]), 1e-3)
+        for shown, of_run in zip(found["shown"], found["run"]):
+            self.assert_shows_the_run({"shown": shown, "run": of_run})
+        for keys in found["keys"]:
+            self.assertEqual(keys, ["Basis", "bent", *(f"bent {name}" for name in ("elsewhere", "top", "foot", "lens"))])
+        self.assertIn("Repair drops what has less than 1 % of the volume of all bodies, as eye has.", found["small"])
+
     def test_mistakes_of_bodies_are_named(self):
         found = self.use("mistakes_of_bodies")
         self.assertIn("second has no vertex group 'gone'", found["no group"])
