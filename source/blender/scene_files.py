@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a run of exemplar reads of an object: its surface, shape keys, vertex groups and motion, in world coordinates, and the scene."""
 import csv
+import itertools
 import struct
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -9,7 +10,8 @@ import bpy
 import numpy as np
 
 from .exemplar_blender import Failure
-from .surfaces import JoinedSurface, Surface, all_worn_by, at_rest, group_weights, in_world, joined_faces, matrices_at_rest, seen_motion, worn_by
+from .surfaces import (JoinedSurface, Surface, all_worn_by, at_rest, group_weights, in_world, joined_faces, lie_inside, matrices_at_rest, seen_motion,
+                       volume, worn_by)
 
 # Painted vertex groups of these names become maps: the key, and the factors of the weights 0 and 1.
 PAINTED = {"exemplar stiffness": ("Young's modulus map", (0.1, 10.)), "exemplar density": ("Density map", (0.1, 10.)),
@@ -202,8 +204,13 @@ def check_several(bodies):
                       f"{bodies[0].name} has {listed(bodies[1:])}.")
 
 
-def check_sizes(shot):
-    """Throws Failure for bodies that Repair would drop without a word."""
+def check_places(shot, settings):
+    """Throws Failure for bodies that would be none of their own, without a word."""
+    for inner, outer in itertools.permutations(shot.parts, 2):
+        if lie_inside(shot.rest_of(inner), shot.rest_of(outer), outer.faces):
+            raise Failure(f"{inner.name} lies inside of {outer.name}, and would be a part of it. Take it out of More bodies, or move it.")
+    if not settings.repair:
+        return
     volumes = {part.name: volume(shot.rest_of(part), part.faces) for part in shot.parts}
     small = [name for name, own in volumes.items() if own < LOOSE * sum(volumes.values())]
     if small:
@@ -331,12 +338,6 @@ def vertices_near(shot, place):
 def cell_size(shot):
     """Edge of that many regular tetrahedra in all bodies."""
     return np.cbrt(6. * np.sqrt(2.) * volume(shot.rest, shot.faces()) / shot.cells)
-
-
-def volume(places, faces):
-    """Of what faces enclose."""
-    triangles = places[[(face[0], *face[i:i + 2]) for face in faces for i in range(1, len(face) - 1)]]
-    return abs(np.einsum("ti,ti->", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2]))) / 6.
 
 
 def truth(value):
@@ -507,8 +508,8 @@ def write_scene(bodies, scene, directory):
     surface = JoinedSurface(bodies, matrices_at_rest(bodies))
     try:
         shot = make_shot(surface, bodies, scene, directory)
-        if bodies[0].exemplar.repair and len(bodies) > 1:
-            check_sizes(shot)
+        if len(bodies) > 1:
+            check_places(shot, bodies[0].exemplar)
         scene.frame_set(scene.frame_start)
         found = obstacles_of(bodies, scene)
         obstacles = {f"obstacle {i}": write_obstacle(obstacle, i, scene, directory) for i, obstacle in enumerate(found, 1)}

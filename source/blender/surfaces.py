@@ -7,6 +7,8 @@ from contextlib import contextmanager
 
 import bpy
 import numpy as np
+from mathutils import Vector
+from mathutils.bvhtree import BVHTree
 
 from .exemplar_blender import Failure
 
@@ -222,6 +224,30 @@ class JoinedSurface:
 def joined_faces(faces, spans):
     """Faces of several objects, by the numbers that their vertices have in one surface."""
     return [tuple(vertex + span.start for vertex in face) for own, span in zip(faces, spans) for face in own]
+
+
+def volume(places, faces):
+    """Of what faces enclose."""
+    triangles = places[[(face[0], *face[i:i + 2]) for face in faces for i in range(1, len(face) - 1)]]
+    return abs(np.einsum("ti,ti->", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2]))) / 6.
+
+
+def lie_inside(places, others, faces):
+    """Whether places lie in what faces of others enclose: rays from them cross it an odd number of times, but for a few that graze an edge."""
+    if np.any(places.min(axis=0) < others.min(axis=0)) or np.any(places.max(axis=0) > others.max(axis=0)):
+        return False
+    tree, step = BVHTree.FromPolygons(others.tolist(), faces), 1e-5 * float(np.linalg.norm(np.ptp(others, axis=0)))
+    return sum(n_crossings(tree, Vector(place), step) % 2 for place in places.tolist()) > .99 * len(places)
+
+
+def n_crossings(tree, place, step):
+    """Of a surface and a ray from a place in a direction that is no axis."""
+    direction, n = Vector((.48, .36, .8)), 0
+    while True:
+        hit = tree.ray_cast(place, direction)[0]
+        if hit is None:
+            return n
+        place, n = hit + step * direction, n + 1
 
 
 def seen_motion(shown, scene, frames):

@@ -15,8 +15,8 @@ WORDS = [
     (r"Mesh/Scale", "the scene's unit scale"), (r"Mesh/Carry", "what it wears"), (r"Mesh/(?:File|Surface)", "the body"),
     (r"Examples/Importance", "Importance"), (r"Examples/Weight maps", "Regions"), (r"Examples/Weights", "Weights"),
     (r"Examples/Poses", "the shape keys"),
-    (r"Contact/Bodies = true keeps pieces of the mesh out of each other, but it is in one piece\. .*", "A body that lies inside of another one is "
-     "a part of it: take it out of More bodies, or move it."),
+    (r"Contact/Bodies = true keeps pieces of the mesh out of each other, but it is in one piece\. .*", "More bodies: these have "
+     "become one piece. Switch Repair off, and part them in Blender."),
     (r"set Contact/Self and Contact/Bodies = false", "part them"), (r"Contact/Self = true", "Touches itself"), (r"Contact/Self", "Touches itself"),
     (r"Contact/Bodies", "More bodies"), (r"Contact/Friction", "the friction of Collision physics"),
     (r"Handles/follow", "Follow"), (r"Handles/pin", "Pin"), (r"Initial/Pose", "the pose of the first frame"),

@@ -449,6 +449,11 @@ def case_mistakes_of_bodies():
     found["selected"] = [sum(face.select for face in shown.data.polygons) for shown in (body, second)]
     second.location, second.scale = (0., 0., 3.), (-.1, .5, .5)
     found["inside"] = run(body, **settings)
+    for shown in (body, second):
+        shown.shape_key_clear()
+    second.location = (0., 0., 5.)
+    second.scale = (-1., 1., 1.)
+    found["one piece"] = run(body, **settings, repair=True)
     second.hide_set(True)
     found["alone"] = run(body, **settings)
     found["alone prm"] = scene_file()

@@ -274,7 +274,8 @@ class Characters(SceneTest):
         self.assertIn("'bar', 'second': the surface does not bound a body", found["crossing"])
         self.assertIn("faces and 0 vertices with faults are selected", found["crossing"])
         self.assertGreater(min(found["selected"]), 0)
-        self.assertIn("A body that lies inside of another one is a part of it", found["inside"])
+        self.assertIn("second lies inside of bar, and would be a part of it", found["inside"])
+        self.assertIn("More bodies: these have become one piece.", found["one piece"])
         self.assertIn("More bodies: things has no other mesh that is seen, so bar moves alone.", found["alone"])
         self.assertNotIn("subsection Contact", found["alone prm"])
         for said in (found[name] for name in found if name not in ("selected", "near", "alone prm")):
