@@ -10,7 +10,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, Po
 from . import results, scene_files
 from .exemplar_blender import Failure
 from .job import FaultSearch, Job
-from .scene_files import is_shell
+from .scene_files import HIDDEN, MADE, is_shell
 from .surfaces import Surface
 from .words import in_artists_words
 
@@ -18,8 +18,6 @@ bl_info = {"name": "exemplar", "blender": (3, 4, 0), "version": (0, 1, 0), "cate
            "location": "3D View > Sidebar > exemplar", "doc_url": "", "description": "Elastic bodies that bend as their shape keys say"}
 
 POLL = 0.2  # [s]
-MADE = "exemplar made"  # custom property of objects that the add-on makes: for which body, and under which name
-HIDDEN = "exemplar hidden"  # custom property of objects in whose place there is a result
 
 
 class Settings(bpy.types.PropertyGroup):
@@ -36,6 +34,9 @@ class Settings(bpy.types.PropertyGroup):
                                        "the beginning. Where gravity acts, and Follow or Pin holds it in the first frame")
     follow: StringProperty(name="Follow", description="Vertex group that goes where armature, modifiers and keys put it")
     pin: StringProperty(name="Pin", description="Vertex group that stays where it is in the first frame")
+    more_bodies: PointerProperty(type=bpy.types.Collection, name="More bodies",
+                                 description="The other meshes in this collection that are seen are bodies of the same scene, and do not "
+                                             "pass through each other. Of their settings Follow and Pin count; the others are this object's")
     follow_from: IntProperty(name="Follow from", min=0, description="Frame in which Follow catches its vertices; 0: from the beginning")
     follow_until: IntProperty(name="until", min=0, description="Frame in which Follow lets go; 0: never")
     pin_from: IntProperty(name="Pin from", min=0, description="Frame in which Pin catches its vertices; 0: from the beginning")
@@ -71,8 +72,8 @@ class Running:
     """The run that goes on, or was the last; one at a time. What artists may rename or delete meanwhile is not held by reference."""
     job = None
     search = None  # search for faults, after a run that has failed
-    token = ""     # token of the body
-    title = ""     # name of the body at the start
+    token = ""     # token of the first body
+    title = ""     # its name at the start
     scene = ""     # name of the scene
     start = 0      # first frame of the scene
     shot = None    # what it was given
@@ -83,8 +84,14 @@ class Running:
         return cls.job is not None
 
     @classmethod
-    def body(cls):
-        return next((item for item in bpy.data.objects if item.exemplar.token == cls.token), None)
+    def bodies(cls):
+        """(part of the shot, its object, or None if it is no more) of each."""
+        by_token = {item.exemplar.token: item for item in reversed(bpy.data.objects)}
+        return [(part, by_token.get(part.token)) for part in cls.shot.parts]
+
+    @classmethod
+    def bodies_left(cls):
+        return [body for _, body in cls.bodies() if body is not None]
 
 
 def program_of(context):
@@ -115,12 +122,17 @@ def hide_original(shown):
         shown.hide_render = True
 
 
+def show_original(shown):
+    hide(shown, False)
+    if HIDDEN in shown:
+        shown.hide_render = not shown[HIDDEN]["rendered"]
+        del shown[HIDDEN]
+
+
 def show_originals(token):
     for shown in bpy.data.objects:
         if HIDDEN in shown and shown[HIDDEN]["body"] == token:
-            hide(shown, False)
-            shown.hide_render = not shown[HIDDEN]["rendered"]
-            del shown[HIDDEN]
+            show_original(shown)
 
 
 def mark(shown, name):
@@ -146,26 +158,32 @@ def remove_made(shown):
                 bpy.data.meshes.remove(mesh)
 
 
+def identify(body):
+    token = body.exemplar.token
+    if not token or sum(item.exemplar.token == token for item in bpy.data.objects) > 1:
+        body.exemplar.token = uuid.uuid4().hex  # a copy is another body
+
+
 def start(context, body):
-    """Write the scene of a body and start its run."""
+    """Write the scene of a body, and of its More bodies, and start its run."""
     if Running.is_on():
         raise Failure(f"{Running.title} is running. Cancel that first.")
     if is_made(body):
         raise Failure(f"{body.name} is the result of a run. Choose the object that is the body.")
-    scene, settings = context.scene, body.exemplar
-    if not settings.token or sum(item.exemplar.token == settings.token for item in bpy.data.objects) > 1:
-        settings.token = uuid.uuid4().hex  # a copy is another body
-    show_originals(settings.token)
-    hide(body, False)  # hidden objects are not evaluated
+    scene, bodies = context.scene, scene_files.bodies_of(body)
+    for shown in bodies:
+        identify(shown)
+        show_originals(shown.exemplar.token)
+        show_original(shown)  # hidden objects are not evaluated
     directory = directory_of(body)
     try:
-        shot = scene_files.write_scene(body, settings, scene, directory)
+        shot = scene_files.write_scene(bodies, scene, directory)
         job = Job(program_of(context), shot.file, shot.n_frames, shot.steps)
     except OSError as error:
         raise Failure(f"{directory} cannot be written ({error.strerror}). Save the .blend elsewhere.") from error
-    for result in results_of(settings.token):
+    for result in (result for part in shot.parts for result in results_of(part.token)):
         hide(result)
-    Running.job, Running.search, Running.token, Running.title, Running.said = job, None, settings.token, body.name, ""
+    Running.job, Running.search, Running.token, Running.title, Running.said = job, None, body.exemplar.token, body.name, ""
     Running.scene, Running.start, Running.shot = scene.name, scene.frame_start, shot
 
 
@@ -191,7 +209,7 @@ def advance():
     if Running.search is not None:
         if Running.search.is_running():
             return True
-        select_faults(*Running.search.found())
+        say_faults(*Running.search.found())
     elif job.is_running():
         show_frame(job.newest_frame())
         Running.said = f"Frame {max(job.shown, 0)} of {job.n_frames}"
@@ -201,6 +219,7 @@ def advance():
     else:
         remove_preview()
         Running.said = in_words(job.failure())
+        say_pairs_left_out(job)
         if not job.cancelled and "body.obj" in job.failure():
             Running.search = FaultSearch(job)
             return True
@@ -214,10 +233,10 @@ def stop(said):
     if Running.search is not None and Running.search.is_running():
         Running.search.process.kill()
     remove_preview()
-    body = Running.body()
-    if body is not None and not any(not result.hide_get() for result in results_of(Running.token)):
+    if all(result.hide_get() for result in results_of(Running.token)):
         show_originals(Running.token)
-        hide(body, False)
+        for body in Running.bodies_left():
+            hide(body, False)
     Running.job, Running.search, Running.said = None, None, said
 
 
@@ -241,26 +260,28 @@ def show_frame(places):
     preview = next(iter(previews()), None)
     if preview is None or len(preview.data.vertices) != len(places):
         mesh = bpy.data.meshes.new(preview_name())
-        mesh.from_pydata(places.tolist(), [], Running.shot.faces)
+        mesh.from_pydata(places.tolist(), [], Running.shot.faces())
         preview = bpy.data.objects.new(preview_name(), mesh)
         mark(preview, preview_name())
         (bpy.data.scenes.get(Running.scene) or bpy.context.scene).collection.objects.link(preview)
-        if Running.body() is not None:
-            hide_original(Running.body())
+        for body in Running.bodies_left():
+            hide_original(body)
     preview.data.vertices.foreach_set("co", places.astype("f4").ravel())
     preview.data.update()
 
 
 def show_result(job):
-    """The body and what it wears, moved, in the place of those of an earlier run."""
+    """The bodies and what they wear, moved, in the place of those of an earlier run."""
     remove_preview()
-    for result in results_of(Running.token):
-        remove_made(result)
+    for part in Running.shot.parts:
+        for result in results_of(part.token):
+            remove_made(result)
     show_originals(Running.token)
     scene = bpy.data.scenes.get(Running.scene) or bpy.context.scene
     with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0]):
         changed = bring_in(job)
     Running.said = in_words("\n".join(["Done.", *Running.shot.notes, *changed, *job.messages()]))
+    say_pairs_left_out(job)
     try:
         bpy.ops.ed.undo_push(message="exemplar result")
     except RuntimeError:
@@ -269,54 +290,88 @@ def show_result(job):
 
 def bring_in(job):
     """What the artist must know of what has changed during the run."""
-    body, changed, made = Running.body(), [], {}
-    try:
-        if body is None:
-            raise Failure(f"{Running.title} is no more.")
-        result, player, prefix = results.make_result(body, Running.shot, job.output, Running.start)
-        made[body] = result
-    except Failure as failure:
-        result, player, prefix = results.make_plain_result(job.output, Running.start)
-        changed.append(f"{failure} The result is a surface without materials and modifiers.")
-    mark(result, f"{Running.title} result")
-    mark(player, f"{Running.title} residual")
-    for i, (name, matrix) in enumerate(Running.shot.worn, 1):
+    prefix, changed, made = results.free_prefix(job.output.parent), [], {}
+    shown = [bring_in_body(job, number, prefix, made, changed) for number in range(len(Running.shot.parts))]
+    for i, (name, matrix, number) in enumerate(Running.shot.worn, 1):
         child = bpy.data.objects.get(name)
-        shown = child and results.make_worn(child, matrix, result, job.output / f"animation_worn_{i}.pc2", Path(f"{prefix}worn_{i}.pc2"),
+        moved = child and results.make_worn(child, matrix, shown[number], job.output / f"animation_worn_{i}.pc2", Path(f"{prefix}worn_{i}.pc2"),
                                             Running.start)
-        if shown is None:
+        if moved is None:
             changed.append(f"{name} is not what it was when the run began, and stays where it is.")
         else:
-            made[child] = shown
-            mark(shown, f"{name} result")
+            made[child] = moved
+            mark(moved, f"{name} result")
     results.retarget(made)
-    if body is not None:
-        made.setdefault(body, result)
-    for original in made:
+    for original in (*made, *Running.bodies_left()):
         hide_original(original)
     return changed
 
 
+def bring_in_body(job, number, prefix, made, changed):
+    """The result of a part of the shot; adds to what was made of which object, and to what has changed."""
+    part, body = Running.bodies()[number]
+    cache_file = Path(f"{prefix}residual{f'_{number + 1}' if number else ''}.pc2")
+    try:
+        if body is None:
+            raise Failure(f"{part.name} is no more.")
+        result, player = results.make_result(body, part, Running.shot, job.output, Running.start, cache_file)
+        made[body] = result
+    except Failure as failure:
+        result, player = results.make_plain_result(part, job.output, Running.start)
+        changed.append(f"{failure} The result is a surface without materials and modifiers.")
+    mark(result, f"{part.name} result")
+    mark(player, f"{part.name} residual")
+    return result
+
+
 def in_words(text):
-    return in_artists_words(text, Running.job.directory, Running.title, Running.shot)
+    return in_artists_words(text, Running.job.directory, Running.shot)
 
 
-def select_faults(faces, vertices):
-    """Of the body, if it has the faces still with which the run began."""
-    body = Running.body()
-    if body is None or not (faces or vertices):
+def say_faults(faces, vertices):
+    if (faces or vertices) and select(faces, vertices):
+        Running.said += f"\n{len(faces)} faces and {len(vertices)} vertices with faults are selected: see them in edit mode."
+
+
+def say_pairs_left_out(job):
+    """Which parts of the surface contact leaves out, and select the vertices near the place of the first that the program names."""
+    found = job.pairs_left_out()
+    if found is None:
         return
+    n_pairs, place = found
+    Running.said += f"\n{n_pairs} pairs of parts of {Running.shot.names()} touch or cross at rest, and may pass through each other."
+    vertices = scene_files.vertices_near(Running.shot, place)
+    if select(set(), vertices):
+        Running.said += f" {len(vertices)} vertices near the first pair are selected: see them in edit mode."
+
+
+def select(faces, vertices):
+    """By numbers in the surface of all bodies, in those that have the faces still with which the run began. Whether nothing is left out."""
+    n_faces, is_whole = 0, True
+    for part, body in Running.bodies():
+        own_faces = {face - n_faces for face in faces if 0 <= face - n_faces < len(part.faces)}
+        own_vertices = {vertex - part.vertices.start for vertex in vertices if vertex in part.vertices}
+        is_selected = select_in(body, part, own_faces, own_vertices)
+        is_whole &= is_selected or not (own_faces or own_vertices)
+        n_faces += len(part.faces)
+    return is_whole
+
+
+def select_in(body, part, faces, vertices):
+    """Whether the object has the faces that it had."""
+    if body is None:
+        return False
     surface = Surface(body)
-    is_same = not surface.is_made and surface.faces() == Running.shot.faces
+    is_same = not surface.is_made and surface.faces() == part.faces
     surface.free()
     if not is_same:
-        return
+        return False
     for polygon in body.data.polygons:
         polygon.select = polygon.index in faces
-    seen = vertices | {vertex for face in faces for vertex in body.data.polygons[face].vertices}
+    seen = vertices | {vertex for polygon in body.data.polygons if polygon.index in faces for vertex in polygon.vertices}
     for vertex in body.data.vertices:
         vertex.select = vertex.index in seen
-    Running.said += f"\n{len(faces)} faces and {len(vertices)} vertices with faults are selected: see them in edit mode."
+    return True
 
 
 class Run(bpy.types.Operator):
@@ -369,6 +424,7 @@ class Panel(bpy.types.Panel):
                 layout.prop(settings, name)
             for name in ("follow", "pin"):
                 layout.prop_search(settings, name, body, "vertex_groups")
+            layout.prop(settings, "more_bodies")
             row = layout.row()
             row.enabled = bool(scene_files.gravity_of(context.scene).any()) and not is_shell(settings)
             row.prop(settings, "balanced")

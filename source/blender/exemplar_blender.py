@@ -80,9 +80,9 @@ def write_pc2(path, places):
 
 
 class Run:
-    """What a run has left in its output directory."""
+    """What a run has left in its output directory; with a range of vertices only this part of its surface, without textures and materials."""
 
-    def __init__(self, directory):
+    def __init__(self, directory, vertices=None):
         self.directory = Path(directory).resolve()
         if not (self.directory / "parameters.prm").exists():
             raise Failure(f"{directory} is not the output directory of a run of exemplar.")
@@ -90,6 +90,19 @@ class Run:
         self.extension, self.places = self._read_animation()
         self.rest, self.faces, self.corners, self.materials = read_obj(self.directory / "rest.obj")
         self.rows = self._rows_of_frames()
+        self.vertices = vertices or range(len(self.rest))
+        if vertices is not None:
+            self._take(vertices)
+
+    def _take(self, vertices):
+        """Of places and faces keep those of a part."""
+        self.places, self.rest = self.places[:, vertices.start:vertices.stop], self.rest[vertices.start:vertices.stop]
+        self.faces = [[vertex - vertices.start for vertex in face] for face in self.faces if face[0] in vertices]
+        self.corners, self.materials = [], []
+
+    def read_shape(self, name):
+        """Places of an example, weight_1 and so on, as the run shows it."""
+        return read_obj(self.directory / f"{name}.obj")[0][self.vertices.start:self.vertices.stop]
 
     def _read_animation(self):
         for extension, read in (("pc2", read_pc2), ("mdd", read_mdd)):
@@ -159,7 +172,7 @@ def read_shapes(run, own):
     shapes = {}
     for name in run.weights():
         file = Path(own[name]) if name in own else run.directory / f"{name}.obj"
-        places = read_obj(file)[0]
+        places = read_obj(file)[0] if name in own else run.read_shape(name)
         if places.shape != run.rest.shape:
             raise Failure(f"{file} has {len(places)} vertices, but the surface of the run has {len(run.rest)}. A shape "
                           "needs the same vertices in the same order.")
@@ -319,17 +332,18 @@ def set_playback(run, start):
     scene.frame_set(start)
 
 
-def load_run(directory, shapes=None, up=None, start=1, save=None, playback=True):
+def load_run(directory, shapes=None, up=None, start=1, save=None, playback=True, vertices=None):
     """Load a run; the object. `shapes` are {weight's name: file} of the artist's own. With `playback` the scene gets the frames and
-    the frame rate of the run."""
-    run = Run(directory)
+    the frame rate of the run. A range of vertices is the part of the surface that is shown."""
+    run = Run(directory, vertices)
     found = read_shapes(run, shapes or {})
     shown = make_object(run.directory.name, run)
     shapes = {weight: places for weight, (_, places) in found.items()}
     names = add_shape_keys(shown, found)
     if names:
         animate_keys(shown, {name: run.weights()[weight] for weight, name in names.items()}, start)
-    file = run.directory / (f"{Path(save).stem}_residual.pc2" if save else "residual.pc2")
+    part = f"_from_{vertices.start + 1}" if vertices is not None and vertices.start > 0 else ""
+    file = run.directory / (f"{Path(save).stem}_residual{part}.pc2" if save else f"residual{part}.pc2")
     _, cache = add_residual(shown, run.rest, residual_of(run.places, run.rest, shapes, run.weights()), start, file)
     if not (run.z_is_up() if up is None else up == "z"):
         shown.rotation_euler[0] = np.pi / 2

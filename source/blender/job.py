@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The program in the background: a run, how far it is and what it has said, and the search for faults of a surface."""
 import csv
+import re
 import signal
 import subprocess
 
@@ -24,8 +25,8 @@ class Job:
         self.program = program
         self.directory = scene_file.parent
         self.output = self.directory / "output"
-        for file in self.output.glob("frame_*.pc2"):
-            file.unlink()  # so that all frames that exist are of this run
+        for file in (*self.output.glob("frame_*.pc2"), self.output / "log.txt"):
+            file.unlink(missing_ok=True)  # so that all that is there is of this run
         self.n_frames, self.steps = n_frames, steps  # frames after the first one, and the steps of each
         self.log = self.directory / "log.txt"
         self.shown = -1  # last frame that was asked for
@@ -65,6 +66,13 @@ class Job:
         lines = [line for line in self.log.read_text(encoding="utf-8", errors="replace").splitlines() if line.strip()]
         first = next((i for i, line in enumerate(lines) if line.startswith(("exemplar: ", "Warning: "))), len(lines))
         return lines[first:]
+
+    def pairs_left_out(self):
+        """How many parts of the surface touch or cross others at rest, which contact leaves out, and the place of the first [m]; or None."""
+        log = self.output / "log.txt"
+        said = log.read_text(encoding="utf-8", errors="replace") if log.exists() else ""
+        found = re.search(r"Contact leaves out (\d+) pairs of parts of the surface that touch or cross at rest, the first near \(([^)]*)\) m", said)
+        return (int(found[1]), [float(number) for number in found[2].split(",")]) if found else None
 
     def failure(self):
         """In words, when it has ended; None: it was well."""

@@ -14,31 +14,29 @@ from .surfaces import Surface, in_object
 PLACE = ("location", "rotation", "scale", "delta_")  # properties that move an object as a whole
 
 
-def make_result(body, shot, output, start):
-    """A copy of a body: its shape keys with the run's weights, the residual and the modifiers behind what moved it. It, and its caches'
-    prefix."""
-    run = exemplar_blender.Run(output)
+def make_result(body, part, shot, output, start, cache_file):
+    """A copy of an object that was a part of the run: its shape keys with the run's weights, the residual and the modifiers behind what moved
+    it. It, and what plays the residual."""
+    run = exemplar_blender.Run(output, part.vertices)
     surface = Surface(body)
-    if surface.faces() != shot.faces:
+    if surface.faces() != part.faces:
         surface.free()
         raise Failure(f"{body.name} has other faces since the run began.")
-    result = still_copy(body, surface, shot.matrix)
-    values = weights_of_keys(result, surface, shot, run)
+    result = still_copy(body, surface, part.matrix)
+    values = weights_of_keys(result, surface, part, shot, run)
     if values:
         exemplar_blender.animate_keys(result, values, start)
-    prefix = free_prefix(output.parent)
     places = in_object(run.places, result.matrix_basis)
     residual = exemplar_blender.residual_of(places, surface.rest, {name: surface.shapes[name] for name in values}, values)
-    player, _ = exemplar_blender.add_residual(result, surface.rest, residual, start, Path(f"{prefix}residual.pc2"),
-                                              len(surface.replaced))
+    player, _ = exemplar_blender.add_residual(result, surface.rest, residual, start, cache_file, len(surface.replaced))
     show(result, body)
-    return result, player, prefix
+    return result, player
 
 
-def make_plain_result(output, start):
+def make_plain_result(part, output, start):
     """A new object for a body that is not what it was, or is no more."""
-    result = exemplar_blender.load_run(output, start=start, up="z", playback=False)
-    return result, result.children[0], free_prefix(output.parent)
+    result = exemplar_blender.load_run(output, start=start, up="z", playback=False, vertices=part.vertices)
+    return result, result.children[0]
 
 
 def make_worn(child, matrix, result, file, cache_file, start):
@@ -112,12 +110,15 @@ def silence_keys(copy):
         key.value = 0.
 
 
-def weights_of_keys(result, surface, shot, run):
-    """{name of a shape key: a value a frame}. Regions have keys of their own, which are added to the result and to the surface's shapes."""
+def weights_of_keys(result, surface, part, shot, run):
+    """{name of a shape key of the part: a value a frame}. Regions have keys of their own, which are added to the result and to the surface's
+    shapes."""
     weights, values = run.weights(), {}
     named = dict(enumerate(["elsewhere", *(name.split(maxsplit=2)[2] for name in shot.regions)]))
     numbers = sorted({int(name.split("_")[1]) for name in weights if name.count("_") == 2})
     for i, pose in enumerate(shot.poses, 1):
+        if pose not in part.poses:
+            continue
         if not numbers:
             if f"weight_{i}" in weights and pose in surface.shapes:
                 values[pose] = weights[f"weight_{i}"]
@@ -125,9 +126,8 @@ def weights_of_keys(result, surface, shot, run):
         for r in numbers:
             region, weight = named[r] if shot.regions else f"region {r}", f"weight_{r}_{i}"
             if weight in weights:
-                places = exemplar_blender.read_obj(run.directory / f"{weight}.obj")[0]
                 key = result.shape_key_add(name=f"{pose} {region}", from_mix=False)
-                surface.shapes[key.name] = in_object(places, result.matrix_basis)
+                surface.shapes[key.name] = in_object(run.read_shape(weight), result.matrix_basis)
                 key.data.foreach_set("co", surface.shapes[key.name].astype(np.float32).ravel())
                 values[key.name] = weights[weight]
     return values

@@ -7,6 +7,8 @@ from contextlib import contextmanager
 
 import bpy
 import numpy as np
+from mathutils import Vector
+from mathutils.bvhtree import BVHTree
 
 from .exemplar_blender import Failure
 
@@ -176,6 +178,78 @@ class Surface:
         return mesh, places
 
 
+class JoinedSurface:
+    """Surfaces of several objects as one, in world coordinates, one object behind the other. `matrices`: the place of each object at rest. Who
+    makes it frees it."""
+
+    def __init__(self, objects, matrices):
+        self.surfaces, self.matrices = [], matrices
+        try:
+            for shown in objects:
+                self.surfaces.append(Surface(shown))
+        except Failure:
+            self.free()
+            raise
+        self.rest = self._joined([surface.rest for surface in self.surfaces])
+
+    def free(self):
+        for surface in self.surfaces:
+            surface.free()
+
+    def spans(self):
+        """The range of vertices of each object."""
+        ends = np.cumsum([len(surface.rest) for surface in self.surfaces])
+        return [range(int(end) - len(surface.rest), int(end)) for surface, end in zip(self.surfaces, ends)]
+
+    def faces(self):
+        return joined_faces([surface.faces() for surface in self.surfaces], self.spans())
+
+    def shapes(self, chosen):
+        """{name: places} of shape keys, of which each object has chosen {name: local places}. What has no key of a name is at rest in it."""
+        names = dict.fromkeys(name for own in chosen for name in own)
+        return {name: self._joined([own.get(name, surface.rest) for surface, own in zip(self.surfaces, chosen)]) for name in names}
+
+    def group_weights(self, names, absent=0.):
+        """In the vertex group that `names` has for each object; `absent` where an object has no such group."""
+        return np.concatenate([surface.group_weights(name) if name in surface.shown.vertex_groups else np.full(len(surface.rest), absent)
+                               for surface, name in zip(self.surfaces, names)])
+
+    def motion(self, scene, frames):
+        return np.concatenate([surface.motion(scene, frames) for surface in self.surfaces], axis=1)
+
+    def _joined(self, local):
+        return np.concatenate([in_world(places, matrix) for places, matrix in zip(local, self.matrices)])
+
+
+def joined_faces(faces, spans):
+    """Faces of several objects, by the numbers that their vertices have in one surface."""
+    return [tuple(vertex + span.start for vertex in face) for own, span in zip(faces, spans) for face in own]
+
+
+def volume(places, faces):
+    """Of what faces enclose."""
+    triangles = places[[(face[0], *face[i:i + 2]) for face in faces for i in range(1, len(face) - 1)]]
+    return abs(np.einsum("ti,ti->", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2]))) / 6.
+
+
+def lie_inside(places, others, faces):
+    """Whether places lie in what faces of others enclose: rays from them cross it an odd number of times, but for a few that graze an edge."""
+    if np.any(places.min(axis=0) < others.min(axis=0)) or np.any(places.max(axis=0) > others.max(axis=0)):
+        return False
+    tree, step = BVHTree.FromPolygons(others.tolist(), faces), 1e-5 * float(np.linalg.norm(np.ptp(others, axis=0)))
+    return sum(n_crossings(tree, Vector(place), step) % 2 for place in places.tolist()) > .99 * len(places)
+
+
+def n_crossings(tree, place, step):
+    """Of a surface and a ray from a place in a direction that is no axis."""
+    direction, n = Vector((.48, .36, .8)), 0
+    while True:
+        hit = tree.ray_cast(place, direction)[0]
+        if hit is None:
+            return n
+        place, n = hit + step * direction, n + 1
+
+
 def seen_motion(shown, scene, frames):
     """Faces of an object behind all of its modifiers, and where its vertices are in the world in frames of a scene: (frames, n, 3)."""
     places, faces = [], []
@@ -216,6 +290,25 @@ def is_above(thing, body):
     while body is not None and body != thing:
         body = body.parent
     return body is not None
+
+
+def all_worn_by(bodies):
+    """[(mesh, number of the body that wears it)]: no mesh is worn twice, and no body is worn."""
+    worn = {}
+    for number, body in enumerate(bodies):
+        for child in worn_by(body):
+            if child not in bodies:
+                worn.setdefault(child, number)
+    return list(worn.items())
+
+
+def matrices_at_rest(bodies):
+    """Of each body in this frame. What a bone of the first one carries is where it belongs on that one at rest."""
+    first, *others = bodies
+    matrices = [first.matrix_world.copy()]
+    with at_rest(first):
+        matrices += [body.matrix_world.copy() for body in others]
+    return [[list(row) for row in matrix] for matrix in matrices]
 
 
 @contextmanager

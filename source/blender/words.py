@@ -5,6 +5,7 @@ import re
 # Keys of a scene, or what messages say of them, and what the artist sees in their place; the first that fits is taken.
 WORDS = [
     (r"[Ss]maller steps \(?Time/Step\)?", "more Steps"), (r"Smaller steps", "More Steps"), (r"smaller steps", "more Steps"),
+    (r"; for a table of all: exemplar mesh --surface .* --list-faults FAULTS\.csv", ""),
     (r", and those of regions and maps alike", ""), (r"Young's modulus is in Pa", "Stiffness is in Pa"),
     (r"Loads/Balanced = true", "Balanced is on"), (r"set Loads/Balanced = false", "switch Balanced off"), (r"Loads/Balanced", "Balanced"),
     (r"Loads/Gravity", "the scene's gravity"),
@@ -14,28 +15,33 @@ WORDS = [
     (r"Mesh/Scale", "the scene's unit scale"), (r"Mesh/Carry", "what it wears"), (r"Mesh/(?:File|Surface)", "the body"),
     (r"Examples/Importance", "Importance"), (r"Examples/Weight maps", "Regions"), (r"Examples/Weights", "Weights"),
     (r"Examples/Poses", "the shape keys"),
+    (r"Contact/Bodies = true keeps pieces of the mesh out of each other, but it is in one piece\. .*", "More bodies: these have "
+     "become one piece. Switch Repair off, and part them in Blender."),
+    (r"set Contact/Self and Contact/Bodies = false", "part them"), (r"Contact/Self = true", "Touches itself"), (r"Contact/Self", "Touches itself"),
+    (r"Contact/Bodies", "More bodies"), (r"Contact/Friction", "the friction of Collision physics"),
     (r"Handles/follow", "Follow"), (r"Handles/pin", "Pin"), (r"Initial/Pose", "the pose of the first frame"),
     (r"Time/Step", "Steps"), (r"Time/Mass damping", "Damping"), (r"Time/Stiffness damping", "Inner damping"),
     (r"\bgroups\.csv:(follow|pin)\b", lambda found: f"the vertex group of {found[1].capitalize()}"),
     (r"\bgroups\.csv:(stiffness|density|importance)\b", r"the vertex group exemplar \1"),
     (r"\brig\.mdd\b", "the motion of the rig"), (r"\b(?:start\.obj|pin\.mdd)\b", "the pose of the first frame"),
     # what the panel has not may be set in the folder's scene file
-    (r"\b(?:Examples|Handles|Loads|Material|Mesh|Model|Output|Solver|Time)/([A-Z][A-Za-z']*(?: [a-z]+)?)", r"\1 (in scene.prm)"),
+    (r"\b(?:Contact|Examples|Handles|Loads|Material|Mesh|Model|Output|Solver|Time)/([A-Z][A-Za-z']*(?: [a-z]+)?)", r"\1 (in scene.prm)"),
     (r"^exemplar: ", ""),
 ]
 
 
-def in_artists_words(text, directory, body, shot):
-    """`text` of a run in a directory; of a body, by its name, and its shot."""
+def in_artists_words(text, directory, shot):
+    """`text` of a run in a directory, and its shot."""
     text = text.replace(f"{directory}/", "")
 
     def name_of(found):
         kind, number = found[1], int(found[2])
-        names = {"worn": [name for name, _ in shot.worn], "pose": shot.poses, "region": shot.regions}[kind]
+        names = {"worn": [name for name, _, _ in shot.worn], "pose": shot.poses, "region": shot.regions}[kind]
         what = {"worn": "", "pose": "shape key ", "region": "vertex group "}[kind]
         return f"{what}'{names[number - 1]}'" if number <= len(names) else found[0]
     text = re.sub(r"(?:\bgroups\.csv:)?\b(worn|pose|region)_(\d+)\b(?:\.obj|\.msh)?", name_of, text)
-    text = re.sub(r"\bbody\.(obj|msh)\b", f"'{body}'", text)
+    bodies = ", ".join(f"'{part.name}'" for part in shot.parts)
+    text = re.sub(r"\bbody\.(obj|msh)\b", lambda _: bodies, text)
     for key, word in WORDS:
         text = re.sub(key, word, text, flags=re.MULTILINE)
     return text

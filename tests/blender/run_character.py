@@ -9,10 +9,12 @@ import json
 import math
 import shutil
 import sys
+import time
 from pathlib import Path
 
 import bpy
 import numpy as np
+from mathutils.bvhtree import BVHTree
 
 sys.path.append(str(Path(__file__).parent))
 from addon_scenes import add_group, add_key, bar, bent, install, make_object, make_rig, places, wait  # noqa: E402
@@ -77,7 +79,8 @@ def make_clothes(body, rig):
     rig.pose.bones["high"].custom_shape = bpy.data.objects["tool"]
 
 
-def run(body, follow="head", pin="feet", **settings):
+def begin(body, follow="head", pin="feet", **settings):
+    """What Run has refused, or nothing."""
     body.exemplar.cells, body.exemplar.follow, body.exemplar.pin = 600, follow, pin
     for name, value in settings.items():
         setattr(body.exemplar, name, value)
@@ -87,6 +90,13 @@ def run(body, follow="head", pin="feet", **settings):
         bpy.ops.exemplar.run()
     except RuntimeError as error:
         return str(error)
+    return ""
+
+
+def run(body, **settings):
+    refused = begin(body, **settings)
+    if refused:
+        return refused
     wait(exemplar)
     return exemplar.Running.said
 
@@ -286,6 +296,194 @@ def case_touches_itself():
     found = {"said": run(body, follow="", stiffness=1e6, touches_itself=True), "prm": scene_file()}
     found["least"] = [min(x[2] for x in frame[len(vertices):]) for frame in run_places()]
     found["top"] = [max(x[2] for x in frame[:len(vertices)]) for frame in run_places()]
+    return found
+
+
+def make_second():
+    """A mirrored bar across the first one and above it, in a collection with a hidden mesh: it has Subdivision, its own key, and a muted one
+    of the same name as the first one's."""
+    vertices, faces = bar()
+    second = make_object("second", [(.8 * z - 1.6, .6 * x, .6 * y) for x, y, z in vertices], faces)
+    second.data.uv_layers.new(name="skin")
+    second.shape_key_add(name="Basis")
+    x = np.array([tuple(vertex.co) for vertex in second.data.vertices])
+    add_key(second, "arched", x - np.outer(.1 * x[:, 0] ** 2, [0., 0., 1.]))
+    add_key(second, "bent", x + [0., 0., 1.]).mute = True
+    add_group(second, "end", lambda x, y, z: x < -1.55)
+    second.modifiers.new("fine", "SUBSURF")
+    second.location, second.scale = (0., 0., 5.4), (-1., 1., 1.)
+    more = bpy.data.collections.new("things")
+    scene.collection.children.link(more)
+    for shown in (second, make_object("unseen", *bar())):
+        scene.collection.objects.unlink(shown)
+        more.objects.link(shown)
+    bpy.data.objects["unseen"].hide_set(True)
+    return second, more
+
+
+def base_places(shown, frame):
+    """Where the object takes its vertices at rest."""
+    scene.frame_set(frame)
+    return [list(shown.matrix_world @ vertex.co) for vertex in shown.data.vertices]
+
+
+def parts_of(of_run):
+    """Of the places in each frame: those of each object."""
+    return [[[frame[i] for i in part.vertices] for frame in of_run] for part in exemplar.Running.shot.parts]
+
+
+def overlaps():
+    """Pairs of faces of the first body and of the second one that cross in each frame of the run."""
+    faces = [part.faces for part in exemplar.Running.shot.parts]
+    return [len(BVHTree.FromPolygons(first, faces[0]).overlap(BVHTree.FromPolygons(second, faces[1])))
+            for first, second in zip(*parts_of(run_places()))]
+
+
+def keyed(shown):
+    return sorted(curve.data_path for curve in shown.data.shape_keys.animation_data.action.fcurves)
+
+
+def case_bodies():
+    """A bar falls on another one, whose feet are pinned; both wear something and have Collision physics."""
+    body, (second, more) = make_body(), make_second()
+    for name, wearer, place in (("belt", body, (0., -.55, 2.)), ("flag", second, (1., -.35, 0.))):
+        thing = make_object(name, [(0., 0., 0.), (.1, 0., 0.), (0., 0., .1)], [(0, 1, 2)])
+        thing.parent, thing.location = wearer, place
+    for shown in (body, second):
+        shown.modifiers.new("touch", "COLLISION")
+    body.collision.friction_factor = .25
+    found = {"before": [what_it_has(shown) for shown in (body, second)], "said": run(body, follow="", stiffness=1e6, more_bodies=more)}
+    found.update(prm=scene_file(), run=parts_of(run_places()), overlaps=overlaps())
+    results = [bpy.data.objects["bar result"], bpy.data.objects["second result"]]
+    found.update(after=list(map(what_it_has, results)), modifiers=list(map(modifiers_of, results)), keyed=list(map(keyed, results)))
+    found["shown"] = [without_what_is_behind(shown, range(3, 19)) for shown in results]
+    found["parents"] = [bpy.data.objects[f"{name} result"].parent.name for name in ("belt", "flag")]
+    found["hidden"] = [[shown.hide_get(), shown.hide_render] for shown in (body, second)]
+    found["objects"] = sorted(item.name for item in bpy.data.objects)
+    found["caches"] = sorted(modifier.filepath for item in bpy.data.objects for modifier in item.modifiers if modifier.type == "MESH_CACHE")
+    return found
+
+
+def case_bodies_that_change():
+    """The second body is led by its own group, by a keyed motion; it gets other faces while it runs. Then a run is cancelled."""
+    body, (second, more) = make_body(), make_second()
+    second.exemplar.follow = "end"
+    for frame, height in ((3, 5.4), (18, 5.8)):
+        second.location[2] = height
+        second.keyframe_insert("location", frame=frame)
+    add_group(second, "exemplar stiffness", lambda x, y, z: True, 1.)
+    settings = {"follow": "", "stiffness": 1e6, "more_bodies": more}
+    found = {"refused": begin(body, **settings), "prm": scene_file()}
+    found["stiffness"] = [row.split(",")[2] for row in (exemplar.directory_of(body) / "groups.csv").read_text().split()[1:]]
+    second.data.polygons[0].flip()
+    body.name = "renamed"
+    wait(exemplar)
+    body.name = "bar"
+    found.update(said=exemplar.Running.said, run=parts_of(run_places()), overlaps=overlaps())
+    found["shown"] = [[places(bpy.data.objects[f"{name} result"], frame) for frame in range(3, 19)] for name in ("bar", "second")]
+    found["led"] = [[x for x, weight in zip(base_places(second, frame), second.data.vertices) if weight.co[0] < -1.55] for frame in (3, 18)]
+    found["hidden"] = [shown.hide_get() for shown in (body, second)]
+
+    scene.frame_end = 20000
+    second.data.polygons[0].flip()
+    second.exemplar.follow = ""
+    found["refused"] += begin(body, **settings)
+    while exemplar.poll() is not None and not exemplar.previews():
+        time.sleep(.02)
+    found["preview"] = [len(shown.data.vertices) for shown in exemplar.previews()]
+    found["hidden meanwhile"] = [shown.hide_get() for shown in (body, second)]
+    bpy.ops.exemplar.cancel()
+    wait(exemplar)
+    found.update(cancelled=exemplar.Running.said, seen=[not shown.hide_get() and not shown.hide_render for shown in (body, second)],
+                 objects=sorted(item.name for item in bpy.data.objects))
+    return found
+
+
+def case_bodies_with_regions():
+    """An eye on a bone of a body that does not begin at rest: both have painted regions and a key of the same name, and the bone leads both."""
+    body = make_body()
+    rig = make_rig(body, begin=.5)
+    vertices, faces = bar()
+    eye = make_object("eye", [(.3 * x, .3 * y, .1 * z) for x, y, z in vertices], faces)
+    eye.parent, eye.parent_type, eye.parent_bone = rig, "BONE", "high"
+    eye.location = (0., -1.2, .55)
+    eye.shape_key_add(name="Basis")
+    add_key(eye, "bent", [(.3 * x, .3 * y, .13 * z) for x, y, z in vertices])
+    add_group(eye, "back", lambda x, y, z: z == 0)
+    eye.exemplar.follow = "back"
+    more = bpy.data.collections.new("eyes")
+    scene.collection.children.link(more)
+    more.objects.link(eye)
+    add_group(body, "exemplar region top", lambda x, y, z: z > 2.)
+    add_group(body, "exemplar region foot", lambda x, y, z: z < 1.)
+    add_group(eye, "exemplar region lens", lambda x, y, z: z > .2)
+    found = {"posed": places(eye, 3), "said": run(body, more_bodies=more, regions="PAINTED"), "prm": scene_file()}
+    found["run"] = parts_of(run_places())
+    results = [bpy.data.objects["bar result"], bpy.data.objects["eye result"]]
+    found["shown"] = [[places(shown, frame) for frame in range(3, 19)] for shown in results]
+    found["keys"] = [[key.name for key in shown.data.shape_keys.key_blocks] for shown in results]
+    rig.data.pose_position = "REST"
+    exemplar.show_originals(body.exemplar.token)
+    found["at rest"] = places(eye, 3)
+    found["written"] = exemplar.exemplar_blender.read_obj(exemplar.directory_of(body) / "body.obj")[0][len(vertices):].tolist()
+    eye.scale = (.3, .3, .3)
+    found["small"] = run(body, repair=True)
+    return found
+
+
+def case_mistakes_of_bodies():
+    body, (second, more) = make_body(), make_second()
+    settings = {"follow": "", "stiffness": 1e6, "more_bodies": more}
+    second.exemplar.pin = "gone"
+    found = {"no group": run(body, **settings)}
+    second.exemplar.pin, second.exemplar.kind = "", "SHELL"
+    found["a shell"] = run(body, **settings)
+    second.exemplar.kind = "SOLID"
+    found["shells"] = run(body, **settings, kind="SHELL")
+    second.location = (0., 0., 5.)
+    scene.frame_end = 5
+    found["parted by keys"] = run(body, **settings, kind="SOLID")
+    found["near"] = [sum(vertex.select for vertex in shown.data.vertices) for shown in (body, second)]
+    body.data.shape_keys.key_blocks["bent"].mute = second.data.shape_keys.key_blocks["arched"].mute = True
+    found["crossing"] = run(body, **settings)
+    found["selected"] = [sum(face.select for face in shown.data.polygons) for shown in (body, second)]
+    second.location, second.scale = (0., 0., 3.), (-.1, .5, .5)
+    found["inside"] = run(body, **settings)
+    for shown in (body, second):
+        shown.shape_key_clear()
+    second.location = (0., 0., 5.)
+    second.scale = (-1., 1., 1.)
+    found["one piece"] = run(body, **settings, repair=True)
+    second.hide_set(True)
+    found["alone"] = run(body, **settings)
+    found["alone prm"] = scene_file()
+    return found
+
+
+def case_bodies_with_a_muscle():
+    """The first one's muscle pulls, and the second one, which lies apart, keeps its length."""
+    body, (second, more) = make_body(), make_second()
+    body["exemplar tension"] = 2e5
+    add_group(body, "exemplar fibres from", lambda x, y, z: z == 0)
+    add_group(body, "exemplar fibres to", lambda x, y, z: z == 4)
+    scene.gravity = (0., 0., 0.)
+    return {"said": run(body, follow="", stiffness=1e6, more_bodies=more), "prm": scene_file(), "run": parts_of(run_places())}
+
+
+def case_pairs_left_out():
+    """A bar that is bent until its ends cross; a key parts them."""
+    vertices, faces = bar()
+    thin = [(.4 * x, .4 * y, z) for x, y, z in vertices]
+    body = make_object("bar", [bent(*x, angle=1.02 * 2 * math.pi) for x in thin], faces)
+    body.shape_key_add(name="Basis")
+    add_key(body, "open", [bent(*x, angle=.7 * 2 * math.pi) for x in thin])
+    body.vertex_groups.new(name="middle").add([i for i, x in enumerate(vertices) if abs(x[2] - 2.) < .4], 1., "REPLACE")
+    body.scale = (50., 50., 50.)
+    scene.unit_settings.scale_length = .02
+    scene.frame_end = 4
+    found = {"said": run(body, follow="", pin="middle", stiffness=1e6, touches_itself=True)}
+    found["selected"] = [vertices[vertex.index] for vertex in body.data.vertices if vertex.select]
+    found["at rest"] = [list(vertex.co) for vertex in body.data.vertices if vertex.select]
     return found
 
 

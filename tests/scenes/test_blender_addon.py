@@ -203,6 +203,101 @@ class Characters(SceneTest):
         self.assertLess(found["least"][-1], 4.1)  # from 4.3
         self.assertTrue(all(least > top - .02 for least, top in zip(found["least"], found["top"])), (found["least"], found["top"]))
 
+    def test_several_bodies(self):
+        found = self.use("bodies")
+        self.assertIn("bar, second do not pass through each other, and Balanced does nothing beside that", found["said"])
+        for line in ("Bodies = true", "Friction = 0.25", "Poses = pose_1.obj, pose_2.obj", "Carry = worn_1.obj, worn_2.obj", "Balanced = false"):
+            self.assertIn(f"set {line}\n", found["prm"])
+        for key in ("subsection Obstacles", "Self = true", "Follow cache"):
+            self.assertNotIn(key, found["prm"])
+        self.assertEqual(found["overlaps"], 16 * [0])
+        middle = [middle_of(frame)[2] for frame in found["run"][1]]
+        self.assertLess(middle[-1], middle[0] - .05)  # it has fallen, and lies on the other one
+        self.assertGreater(min(middle), 4.8)
+        # each object shows its slice of the run, and has what it had
+        for shown, of_run in zip(found["shown"], found["run"]):
+            self.assert_shows_the_run({"shown": shown, "run": of_run})
+        self.assertEqual(found["after"], found["before"])
+        self.assertEqual(found["modifiers"], [[["exemplar residual", True, True], ["touch", True, True]],
+                                              [["exemplar residual", True, True], ["fine", True, True], ["touch", True, True]]])
+        self.assertEqual(found["keyed"], [['key_blocks["bent"].value'], ['key_blocks["arched"].value']])
+        self.assertEqual(found["parents"], ["bar result", "second result"])
+        self.assertEqual(found["hidden"], 2 * [[True, True]])
+        self.assertEqual([name for name in found["objects"] if name.endswith("result")],
+                         [f"{name} result" for name in ("bar", "belt", "flag", "second")])
+        self.assertEqual(found["caches"], [f"//film_bar/take_1_{name}.pc2" for name in ("residual", "residual_2", "worn_1", "worn_2")])
+
+    def test_bodies_that_change_while_they_run(self):
+        found = self.use("bodies_that_change")
+        self.assertEqual(found["refused"], "")
+        for line in ("Names = follow, pin", "Select = map groups.csv:pin above 0.5", "Follow cache = rig.mdd", "Bodies = true"):
+            self.assertIn(f"set {line}\n", found["prm"])
+        n = len(found["run"][0][0])
+        # what has no painted stiffness has the factor .1 + 9.9 / 11 = 1
+        self.assertEqual([set(found["stiffness"][:n]), set(found["stiffness"][n:])], [{"0.0909091"}, {"1"}])
+        self.assertIn("second has other faces since the run began. The result is a surface without materials and modifiers.", found["said"])
+        self.assertNotIn("bar has other faces", found["said"])
+        self.assertEqual(found["overlaps"], 16 * [0])
+        for shown, of_run in zip(found["shown"], found["run"]):
+            self.assert_shows_the_run({"shown": shown, "run": of_run})
+        self.assertEqual(found["hidden"], [True, True])
+        for frame, led in zip((0, -1), found["led"]):
+            self.assertEqual(len(led), 25)
+            for place in led:
+                self.assertLess(min(math.dist(place, x) for x in found["run"][1][frame]), 1e-2)
+        self.assertEqual(found["preview"], [2 * n])
+        self.assertEqual((found["hidden meanwhile"], found["cancelled"], found["seen"]), ([True, True], "Cancelled.", [True, True]))
+        self.assertEqual([name for name in found["objects"] if "running" in name], [])
+
+    def test_a_body_on_a_bone_of_another_one_and_regions_of_both(self):
+        found = self.use("bodies_with_regions")
+        self.assertIn("Done.", found["said"])
+        self.assertIn("set Weight maps = groups.csv:region_1, groups.csv:region_2, groups.csv:region_3\n", found["prm"])
+        self.assertIn("set Poses = pose_1.obj\n", found["prm"])
+        self.assertNotIn("Carry", found["prm"])  # what is a body is not worn
+        self.assertLess(farthest(found["written"], found["at rest"]), 1e-6)
+        self.assertGreater(farthest(found["posed"], found["at rest"]), .5)
+        self.assertLess(farthest(found["run"][1][0], found["posed"]), 1e-3)
+        for shown, of_run in zip(found["shown"], found["run"]):
+            self.assert_shows_the_run({"shown": shown, "run": of_run})
+        for keys in found["keys"]:
+            self.assertEqual(keys, ["Basis", "bent", *(f"bent {name}" for name in ("elsewhere", "top", "foot", "lens"))])
+        self.assertIn("Repair drops what has less than 1 % of the volume of all bodies, as eye has.", found["small"])
+
+    def test_mistakes_of_bodies_are_named(self):
+        found = self.use("mistakes_of_bodies")
+        self.assertIn("second has no vertex group 'gone'", found["no group"])
+        self.assertIn("Shells meet no other bodies, and second is a shell", found["a shell"])
+        self.assertIn("Shells meet no other bodies, and bar is a shell", found["shells"])
+        self.assertRegex(found["parted by keys"], rf"pairs of parts of bar, second touch or cross at rest.* {sum(found['near'])} vertices near")
+        self.assertGreater(sum(found["near"]), 0)
+        self.assertIn("'bar', 'second': the surface does not bound a body", found["crossing"])
+        self.assertIn("faces and 0 vertices with faults are selected", found["crossing"])
+        self.assertGreater(min(found["selected"]), 0)
+        self.assertIn("second lies inside of bar, and would be a part of it", found["inside"])
+        self.assertIn("More bodies: these have become one piece.", found["one piece"])
+        self.assertIn("More bodies: things has no other mesh that is seen, so bar moves alone.", found["alone"])
+        self.assertNotIn("subsection Contact", found["alone prm"])
+        for said in (found[name] for name in found if name not in ("selected", "near", "alone prm")):
+            self.assertNotRegex(said, r"\b[A-Z][a-z]+/[A-Z]|\.obj|\.csv|exemplar: ")
+
+    def test_the_muscle_of_one_of_several_bodies(self):
+        found = self.use("bodies_with_a_muscle")
+        self.assertIn("Done.", found["said"])
+        self.assertIn("set Fibre tension map = groups.csv:muscle\n", found["prm"])
+        of_first, of_second = ([max(x[axis] for x in frame) - min(x[axis] for x in frame) for frame in of_part]
+                               for of_part, axis in zip(found["run"], (2, 0)))
+        self.assertLess(of_first[-1], of_first[0] - .1)
+        self.assertLess(max(abs(length - of_second[0]) for length in of_second), 1e-3)
+
+    def test_pairs_that_touch_at_rest_are_selected(self):
+        found = self.use("pairs_left_out")
+        self.assertRegex(found["said"], r"\n\d+ pairs of parts of bar touch or cross at rest, and may pass through each other. "
+                                        rf"{len(found['selected'])} vertices near the first pair are selected: see them in edit mode\.")
+        self.assertTrue(found["selected"])
+        self.assertTrue(all(min(x[2], 4. - x[2]) < 1. for x in found["selected"]), found["selected"])  # near the ends, which cross
+        self.assertLess(max(math.dist(x, y) for x in found["at rest"] for y in found["at rest"]), 1.)
+
     def test_a_bone_drives_a_muscle(self):
         found = self.use("tension")
         self.assertIn("no vertex with a weight above 0.5 in a vertex group 'exemplar fibres from'", found["missing"])
