@@ -396,6 +396,13 @@ def case_bodies_that_change():
     wait(exemplar)
     found.update(cancelled=exemplar.Running.said, seen=[not shown.hide_get() and not shown.hide_render for shown in (body, second)],
                  objects=sorted(item.name for item in bpy.data.objects))
+
+    scene.frame_end = 5
+    found["refused"] += begin(body, **settings)
+    bpy.data.objects.remove(second)
+    wait(exemplar)
+    found["deleted"], found["run of deleted"] = exemplar.Running.said, parts_of(run_places())
+    found["shown of deleted"] = [places(bpy.data.objects[f"{name} result"], 5) for name in ("bar", "second")]
     return found
 
 

@@ -248,6 +248,9 @@ class Characters(SceneTest):
         self.assertEqual(found["preview"], [2 * n])
         self.assertEqual((found["hidden meanwhile"], found["cancelled"], found["seen"]), ([True, True], "Cancelled.", [True, True]))
         self.assertEqual([name for name in found["objects"] if "running" in name], [])
+        self.assertIn("second is no more. The result is a surface without materials and modifiers.", found["deleted"])
+        for shown, of_run in zip(found["shown of deleted"], found["run of deleted"]):
+            self.assertLess(farthest(shown, of_run[-1]), 2e-6)
 
     def test_a_body_on_a_bone_of_another_one_and_regions_of_both(self):
         found = self.use("bodies_with_regions")
