@@ -10,6 +10,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace Exemplar
 {
   namespace
@@ -301,6 +303,23 @@ namespace Exemplar
           pairs.add(a, b);
     dealii::SparsityPattern pattern;
     pattern.copy_from(pairs);
+    return pattern;
+  }
+
+  SymmetricPattern
+  FESpace::lower_nodal_pattern() const
+  {
+    const dealii::SparsityPattern nodal = nodal_pattern();
+    SymmetricPattern              pattern;
+    pattern.column_start.push_back(0);
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+    {
+      for (auto entry = nodal.begin(node); entry != nodal.end(node); ++entry)
+        if (entry->column() >= node)
+          pattern.row.push_back(static_cast<int>(entry->column()));
+      std::sort(pattern.row.begin() + pattern.column_start.back(), pattern.row.end());
+      pattern.column_start.push_back(static_cast<int>(pattern.row.size()));
+    }
     return pattern;
   }
 

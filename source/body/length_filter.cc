@@ -7,24 +7,6 @@ namespace Exemplar
 {
   namespace
   {
-    /// Lower triangle of a nodal matrix.
-    SymmetricPattern
-    lower_pattern(const dealii::SparsityPattern &nodal)
-    {
-      SymmetricPattern pattern;
-      pattern.column_start.push_back(0);
-      for (unsigned int node = 0; node < nodal.n_rows(); ++node)
-      {
-        const auto begin = pattern.row.size();
-        for (auto entry = nodal.begin(node); entry != nodal.end(node); ++entry)
-          if (entry->column() >= node)
-            pattern.row.push_back(static_cast<int>(entry->column()));
-        std::sort(pattern.row.begin() + static_cast<std::ptrdiff_t>(begin), pattern.row.end());
-        pattern.column_start.push_back(static_cast<int>(pattern.row.size()));
-      }
-      return pattern;
-    }
-
     /// Matrix of the filter: lumped mass plus l^2 times the stiffness of Laplace's equation.
     void
     assemble_filter(const FESpace          &fe_space,
@@ -53,7 +35,7 @@ namespace Exemplar
   LengthFilter::LengthFilter(const FESpace &linear, const double length)
       : linear(linear), matrix(make_cholesky_operator())
   {
-    const SymmetricPattern pattern = lower_pattern(linear.nodal_pattern());
+    const SymmetricPattern pattern = linear.lower_nodal_pattern();
     matrix->reinit(pattern);
     assemble_filter(linear, length * length / 12., *matrix, pattern);
     matrix->factorize(linear.rest_positions());

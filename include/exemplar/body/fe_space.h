@@ -2,6 +2,7 @@
 #ifndef exemplar_fe_space_h
 #define exemplar_fe_space_h
 
+#include <exemplar/algebra/spd_operator.h>
 #include <exemplar/body/node_numbering.h>
 #include <exemplar/body/shell_strains.h>
 #include <exemplar/kernels/tetrahedron.h>
@@ -225,6 +226,10 @@ namespace Exemplar
     /// Sparsity pattern of the nodal graph: all pairs of nodes that share a cell.
     dealii::SparsityPattern
     nodal_pattern() const;
+
+    /// The lower triangle of nodal_pattern(), for matrices with a number a node.
+    SymmetricPattern
+    lower_nodal_pattern() const;
 
     /// Integrals of density N_a N_b over all cells [kg], by deal.II's quadrature,
     /// into a matrix on nodal_pattern(); the mass matrix is its product with I_3.

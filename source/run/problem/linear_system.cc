@@ -32,24 +32,6 @@ namespace Exemplar
                                                         : static_cast<double>(pattern.n_values());
     }
 
-    /// The nodes that share cells.
-    SymmetricPattern
-    pattern_of_nodes(const FESpace &fe_space)
-    {
-      const dealii::SparsityPattern nodal = fe_space.nodal_pattern();
-      SymmetricPattern              pattern;
-      pattern.column_start.push_back(0);
-      for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
-      {
-        for (auto entry = nodal.begin(node); entry != nodal.end(node); ++entry)
-          if (entry->column() >= node)
-            pattern.row.push_back(static_cast<int>(entry->column()));
-        std::sort(pattern.row.begin() + pattern.column_start.back(), pattern.row.end());
-        pattern.column_start.push_back(static_cast<int>(pattern.row.size()));
-      }
-      return pattern;
-    }
-
     /// Number of nodes from which on the best order of elimination, which METIS finds, takes seconds.
     constexpr unsigned int n_nodes_of_large_body = 60000;
 
@@ -68,7 +50,7 @@ namespace Exemplar
         return false;
       try
       {
-        const SymmetricPattern pattern      = pattern_of_nodes(fe_space);
+        const SymmetricPattern pattern      = fe_space.lower_nodal_pattern();
         const double           n_operations = 27. * operations_by_minimum_degree(pattern);
         return n_operations > max_gain_of_order * operations_at_crossover(solver.method, n_weights)
                                   * 9. * pattern.n_values();
