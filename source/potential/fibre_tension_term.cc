@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/padded_nodes.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/words.h>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <type_traits>
 
 namespace Exemplar
 {
@@ -126,7 +126,8 @@ namespace Exemplar
                                      const FESpace             &fe_space,
                                      const std::vector<double> &held)
       : of_material(material.tensions()), material(material), fe_space(fe_space), held(held),
-        tension(fe_space.n_cells(), 0.)
+        kernels(best_kernels(fe_space.element())), node_positions(4 * fe_space.n_nodes()),
+        node_sums(4 * fe_space.n_nodes()), tension(fe_space.n_cells(), 0.)
   {
     for (const FibreTensions::Source &source : of_material.sources)
     {
@@ -134,11 +135,13 @@ namespace Exemplar
       const bool        is_of_time = is_of_time_alone(source.formula, key);
       laws.push_back({ Expression(key, source.formula, is_of_time ? "t" : "xyzt", 1), !is_of_time,
                        TensionCurve(source.curve, key + " curve") });
+      are_constant &= laws.back().curve.is_constant();
     }
     for (unsigned int cell = 0; cell < of_material.of_cells.size(); ++cell)
       if (of_material.of_cells[cell] > 0)
         active_cells.push_back(cell);
     keep_shares();
+    amounts.assign(active_cells.size() * points_per_cell(fe_space.element()), 0.);
   }
 
   void
@@ -189,8 +192,14 @@ namespace Exemplar
   {
     time                             = new_time;
     const std::vector<double> values = tensions_at(time);
+    const auto n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
+    amounts.clear();
     for (std::size_t i = 0; i < active_cells.size(); ++i)
+    {
       tension[active_cells[i]] = values[i];
+      for (unsigned int k = 0; k < n_points; ++k)
+        amounts.push_back(values[i] * fe_space.volume(n_points * active_cells[i] + k));
+    }
   }
 
   bool
@@ -220,7 +229,7 @@ namespace Exemplar
         found.now[i] += share * positions[3 * nodes[a] + i];
     }
     found.stretch      = length(found.now);
-    found.curve        = laws[of_material.of_cells[cell] - 1].curve.at(found.stretch);
+    found.curve        = curve(cell).at(found.stretch);
     found.force_factor = found.stretch < TensionCurve::least_stretch
                              ? found.curve.slope
                              : found.curve.force / found.stretch;
@@ -231,9 +240,12 @@ namespace Exemplar
   FibreTensionTerm::keep_shares()
   {
     const auto n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
+    nodes.clear();
     shares.clear();
     for (const unsigned int cell : active_cells)
     {
+      const auto of_cell = fe_space.nodes(cell);
+      nodes.insert(nodes.end(), of_cell.begin(), of_cell.end());
       const auto           &along = material.grain_axes(cell).along;
       const Vector3<double> rest  = { { along[0], along[1], along[2] } };
       for (unsigned int point = n_points * cell; point < n_points * (cell + 1); ++point)
@@ -245,52 +257,50 @@ namespace Exemplar
   void
   FibreTensionTerm::add(const TermPoint &at, ElasticSums &sums)
   {
-    if (nodes_per_cell(fe_space.element())
-        == 4) // a number that the compiler knows is twice as fast
-      add_all(at.positions, sums, std::integral_constant<std::size_t, 4>());
-    else
-      add_all(at.positions, sums, static_cast<std::size_t>(nodes_per_cell(fe_space.element())));
-  }
-
-  template <typename Number>
-  void
-  FibreTensionTerm::add_all(const Vector &positions, ElasticSums &sums, const Number n_nodes) const
-  {
-    const auto          n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
-    const double *const x        = positions.begin();
-    double *const       gradient = sums->gradient.begin();
-    double *const       scale    = sums->force_scale.begin();
-    const double       *share    = shares.data();
-    double              energy   = sums->energy;
-    for (const unsigned int cell : active_cells)
+    constexpr std::size_t n_at_once = 64; // few enough for the fastest memory
+    const FibreArrays     fibres{ nodes.data(), shares.data() };
+    const std::size_t     n = active_cells.size() * points_per_cell(fe_space.element());
+    double                vectors[4 * n_at_once];
+    double                energy = sums->energy;
+    pad_nodes(at.positions, node_positions);
+    node_sums.fill(0.);
+    for (std::size_t begin = 0; begin < n; begin += n_at_once)
     {
-      const unsigned int *const nodes = fe_space.nodes(cell).data();
-      const TensionCurve       &curve = laws[of_material.of_cells[cell] - 1].curve;
-      for (unsigned int point = n_points * cell; point < n_points * (cell + 1); ++point)
-      {
-        Vector3<double> now{};
-        for (std::size_t a = 0; a < n_nodes; ++a)
-          for (int i = 0; i < 3; ++i)
-            now[i] += share[a] * x[3 * nodes[a] + i];
-        const double        stretch  = length(now);
-        const bool          is_usual = stretch >= TensionCurve::least_stretch;
-        TensionCurve::Value value{ stretch - 1., 1., 0. };
-        if (!is_usual || !curve.is_constant())
-          value = curve.at(stretch);
-        const double amount = fe_space.volume(point) * tension[cell];
-        const double factor = is_usual ? value.force / stretch : value.slope;
-        energy += amount * value.energy;
-        for (std::size_t a = 0; a < n_nodes; ++a)
-        {
-          const double of_node = amount * share[a];
-          for (int i = 0; i < 3; ++i)
-            gradient[3 * nodes[a] + i] += of_node * factor * now[i];
-          scale[nodes[a]] += std::abs(of_node) * value.force;
-        }
-        share += n_nodes;
-      }
+      const std::size_t end = std::min(begin + n_at_once, n);
+      kernels.fibre_vectors(fibres, begin, end, node_positions.data(), vectors);
+      energy += find_forces(begin, end, vectors);
+      kernels.add_fibre_forces(fibres, begin, end, vectors, node_sums.data());
     }
     sums->energy = energy;
+    for (std::size_t node = 0; node < fe_space.n_nodes(); ++node)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        sums->gradient[3 * node + c] += node_sums[4 * node + c];
+      sums->force_scale[node] += node_sums[4 * node + 3];
+    }
+  }
+
+  double
+  FibreTensionTerm::find_forces(const std::size_t begin,
+                                const std::size_t end,
+                                double           *vectors) const
+  {
+    double energy = 0.;
+    for (std::size_t i = begin; i < end; ++i, vectors += 4)
+    {
+      const double stretch
+          = std::sqrt(vectors[0] * vectors[0] + vectors[1] * vectors[1] + vectors[2] * vectors[2]);
+      const bool          is_usual = stretch >= TensionCurve::least_stretch;
+      TensionCurve::Value value{ stretch - 1., 1., 0. };
+      if (!is_usual || !are_constant)
+        value = curve(active_cells[i / points_per_cell(fe_space.element())]).at(stretch);
+      const double factor = amounts[i] * (is_usual ? value.force / stretch : value.slope);
+      energy += amounts[i] * value.energy;
+      for (int c = 0; c < 3; ++c)
+        vectors[c] *= factor;
+      vectors[3] = amounts[i] * value.force;
+    }
+    return energy;
   }
 
   void
@@ -373,7 +383,10 @@ namespace Exemplar
   {
     return dealii::MemoryConsumption::memory_consumption(active_cells)
            + dealii::MemoryConsumption::memory_consumption(shares)
+           + dealii::MemoryConsumption::memory_consumption(nodes)
+           + node_positions.memory_consumption() + node_sums.memory_consumption()
            + dealii::MemoryConsumption::memory_consumption(tension)
+           + dealii::MemoryConsumption::memory_consumption(amounts)
            + (scatter ? scatter->memory_consumption() : 0);
   }
 

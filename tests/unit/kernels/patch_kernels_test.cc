@@ -118,5 +118,25 @@ namespace Exemplar::Testing
                                                  820., 1230., 0. }));
       }
     }
+
+    TEST(FibreKernels, VectorsAndForcesOfFibresAreSumsOverTheNodesOfACell)
+    {
+      const std::vector<unsigned int> nodes  = { 0, 2, 3, 1 };
+      const std::vector<double>       shares = { 1., -2., 0.5, 0.5 };
+      const std::vector<double>       x
+          = { 1., 2., 3., 0., 4., 4., 8., 0., 1., 1., 0., 0., 2., 6., 4., 0. };
+      const std::vector<double> force = { 2., 4., -6., 8. };
+      for (const CellKernels *kernels : scalar_and_all_kernels(Element::P1))
+      {
+        const FibreArrays   fibres{ nodes.data(), shares.data() };
+        std::vector<double> vector(4), sums(16, 1.);
+        kernels->fibre_vectors(fibres, 0, 1, x.data(), vector.data());
+        vector[3] = 0.;
+        EXPECT_EQ(vector, (std::vector<double>{ 2., 5., 9., 0. }));
+        kernels->add_fibre_forces(fibres, 0, 1, force.data(), sums.data());
+        EXPECT_EQ(sums, (std::vector<double>{ 3., 5., -5., 9., 2., 3., -2., 5., -3., -7., 13., 17.,
+                                              2., 3., -2., 5. }));
+      }
+    }
   } // namespace
 } // namespace Exemplar::Testing
