@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace Exemplar
@@ -37,11 +38,11 @@ namespace Exemplar
     }
 
     bool
-    is_of_time_alone(const std::string &formula, const std::string &key)
+    is_of(const std::string &variables, const std::string &formula, const std::string &key)
     {
       try
       {
-        const Expression expression(key, formula, "t", 1);
+        const Expression expression(key, formula, variables, 1);
         return true;
       }
       catch (const UserError &)
@@ -132,10 +133,12 @@ namespace Exemplar
     for (const FibreTensions::Source &source : of_material.sources)
     {
       const std::string key        = source.section + "/Fibre tension";
-      const bool        is_of_time = is_of_time_alone(source.formula, key);
+      const bool        is_of_time = is_of("t", source.formula, key);
       laws.push_back({ Expression(key, source.formula, is_of_time ? "t" : "xyzt", 1), !is_of_time,
+                       !is_of("xyz", source.formula, key),
                        TensionCurve(source.curve, key + " curve") });
       are_constant &= laws.back().curve.is_constant();
+      are_steady &= !laws.back().depends_on_time;
     }
     for (unsigned int cell = 0; cell < of_material.of_cells.size(); ++cell)
       if (of_material.of_cells[cell] > 0)
@@ -154,7 +157,7 @@ namespace Exemplar
   FibreTensionTerm::follow_parameters()
   {
     keep_shares();
-    set_time(time);
+    find_tensions();
   }
 
   std::vector<double>
@@ -190,9 +193,18 @@ namespace Exemplar
   void
   FibreTensionTerm::set_time(const double new_time)
   {
-    time                             = new_time;
+    time = new_time;
+    if (!are_known || !are_steady || held != held_then)
+      find_tensions();
+  }
+
+  void
+  FibreTensionTerm::find_tensions()
+  {
     const std::vector<double> values = tensions_at(time);
     const auto n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
+    held_then           = held;
+    are_known           = true;
     amounts.clear();
     for (std::size_t i = 0; i < active_cells.size(); ++i)
     {
@@ -216,19 +228,28 @@ namespace Exemplar
     const unsigned int cell = fe_space.cell_of(point);
     if (of_material.of_cells.empty() || of_material.of_cells[cell] == 0)
       return {};
-    const auto &along = material.grain_axes(cell).along;
-    Fibre       found;
-    found.rest       = { { along[0], along[1], along[2] } };
-    found.now        = {};
-    const auto nodes = fe_space.nodes(cell);
-    const auto g     = fe_space.gradients(point);
+    const auto           &along = material.grain_axes(cell).along;
+    const Vector3<double> rest  = { { along[0], along[1], along[2] } };
+    Vector3<double>       now{};
+    const auto            nodes = fe_space.nodes(cell);
+    const auto            g     = fe_space.gradients(point);
     for (unsigned int a = 0; a < nodes.size(); ++a)
     {
-      const double share = dot(g[a], found.rest);
+      const double share = dot(g[a], rest);
       for (int i = 0; i < 3; ++i)
-        found.now[i] += share * positions[3 * nodes[a] + i];
+        now[i] += share * positions[3 * nodes[a] + i];
     }
-    found.stretch      = length(found.now);
+    Fibre found = at_vector(cell, now);
+    found.rest  = rest;
+    return found;
+  }
+
+  FibreTensionTerm::Fibre
+  FibreTensionTerm::at_vector(const unsigned int cell, const Vector3<double> &now) const
+  {
+    Fibre found{};
+    found.now          = now;
+    found.stretch      = length(now);
     found.curve        = curve(cell).at(found.stretch);
     found.force_factor = found.stretch < TensionCurve::least_stretch
                              ? found.curve.slope
@@ -242,15 +263,21 @@ namespace Exemplar
     const auto n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
     nodes.clear();
     shares.clear();
+    std::vector<unsigned int> order(nodes_per_cell(fe_space.element()));
     for (const unsigned int cell : active_cells)
     {
       const auto of_cell = fe_space.nodes(cell);
-      nodes.insert(nodes.end(), of_cell.begin(), of_cell.end());
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(), order.end(),
+                [&](const unsigned int a, const unsigned int b)
+                { return of_cell[a] < of_cell[b]; });
+      for (const unsigned int a : order)
+        nodes.push_back(of_cell[a]);
       const auto           &along = material.grain_axes(cell).along;
       const Vector3<double> rest  = { { along[0], along[1], along[2] } };
       for (unsigned int point = n_points * cell; point < n_points * (cell + 1); ++point)
-        for (const Vector3<double> &g : fe_space.gradients(point))
-          shares.push_back(dot(g, rest));
+        for (const unsigned int a : order)
+          shares.push_back(dot(fe_space.gradients(point)[a], rest));
     }
   }
 
@@ -268,7 +295,9 @@ namespace Exemplar
     {
       const std::size_t end = std::min(begin + n_at_once, n);
       kernels.fibre_vectors(fibres, begin, end, node_positions.data(), vectors);
-      energy += find_forces(begin, end, vectors);
+      energy += are_constant ? kernels.pull_fibres(&amounts[begin], end - begin,
+                                                   TensionCurve::least_stretch, vectors)
+                             : find_forces(begin, end, vectors);
       kernels.add_fibre_forces(fibres, begin, end, vectors, node_sums.data());
     }
     sums->energy = energy;
@@ -290,10 +319,9 @@ namespace Exemplar
     {
       const double stretch
           = std::sqrt(vectors[0] * vectors[0] + vectors[1] * vectors[1] + vectors[2] * vectors[2]);
-      const bool          is_usual = stretch >= TensionCurve::least_stretch;
-      TensionCurve::Value value{ stretch - 1., 1., 0. };
-      if (!is_usual || !are_constant)
-        value = curve(active_cells[i / points_per_cell(fe_space.element())]).at(stretch);
+      const bool                is_usual = stretch >= TensionCurve::least_stretch;
+      const TensionCurve::Value value
+          = curve(active_cells[i / points_per_cell(fe_space.element())]).at(stretch);
       const double factor = amounts[i] * (is_usual ? value.force / stretch : value.slope);
       energy += amounts[i] * value.energy;
       for (int c = 0; c < 3; ++c)
@@ -303,19 +331,29 @@ namespace Exemplar
     return energy;
   }
 
-  void
-  FibreTensionTerm::along_fibre(const unsigned int                          point,
-                                const dealii::ArrayView<const unsigned int> nodes,
-                                std::vector<double>                        &along_nodes) const
+  Matrix3<double>
+  FibreTensionTerm::stiffness(const std::size_t point,
+                              const Vector     &positions,
+                              const Tangent     kind) const
   {
-    const unsigned int    cell  = fe_space.cell_of(point);
-    const auto            own   = fe_space.nodes(cell);
-    const auto           &along = material.grain_axes(cell).along;
-    const Vector3<double> a     = { { along[0], along[1], along[2] } };
-    along_nodes.clear();
-    for (const unsigned int node : nodes)
-      along_nodes.push_back(
-          dot(fe_space.gradients(point)[std::find(own.begin(), own.end(), node) - own.begin()], a));
+    const unsigned int  n_nodes = nodes_per_cell(fe_space.element());
+    const std::size_t   active  = point / points_per_cell(fe_space.element());
+    const unsigned int *of_cell = &nodes[n_nodes * active];
+    Vector3<double>     now{};
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (int i = 0; i < 3; ++i)
+        now[i] += shares[n_nodes * point + a] * positions[3 * of_cell[a] + i];
+    const Fibre     f = at_vector(active_cells[active], now);
+    Matrix3<double> columns{};
+    for (int j = 0; j < 3; ++j)
+    {
+      Vector3<double> unit{};
+      unit[j]                      = amounts[point];
+      const Vector3<double> column = f.change(unit, kind);
+      for (int i = 0; i < 3; ++i)
+        columns[i][j] = column[i];
+    }
+    return columns;
   }
 
   void
@@ -324,36 +362,26 @@ namespace Exemplar
                                 std::vector<double> &values,
                                 std::vector<double> & /*columns*/)
   {
-    const auto          n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
-    const std::size_t   n_blocks = n_block_columns(nodes_per_cell(fe_space.element()));
-    std::vector<double> blocks, of_nodes;
-    for (const unsigned int cell : active_cells)
+    const unsigned int n_points = points_per_cell(fe_space.element()),
+                       n_nodes  = nodes_per_cell(fe_space.element());
+    std::vector<double> blocks(3 * n_block_columns(n_nodes));
+    for (std::size_t active = 0; active < active_cells.size(); ++active)
     {
-      if (tension[cell] == 0.)
+      if (tension[active_cells[active]] == 0.)
         continue;
-      blocks.assign(3 * n_blocks, 0.);
-      const std::vector<unsigned int> nodes = scatter->nodes(cell);
-      for (unsigned int point = n_points * cell; point < n_points * (cell + 1); ++point)
+      std::fill(blocks.begin(), blocks.end(), 0.);
+      for (std::size_t point = n_points * active; point < n_points * (active + 1); ++point)
       {
-        const Fibre     f = *fibre(point, at.positions);
-        Matrix3<double> columns{}; // column j is row j
-        for (int j = 0; j < 3; ++j)
-        {
-          Vector3<double> unit{};
-          unit[j]                      = fe_space.volume(point) * tension[cell];
-          const Vector3<double> column = f.change(unit, kind);
-          for (int i = 0; i < 3; ++i)
-            columns[j][i] = column[i];
-        }
-        along_fibre(point, dealii::make_array_view(nodes), of_nodes);
-        double *entry = blocks.data();
-        for (unsigned int a = 0; a < of_nodes.size(); ++a)
+        const Matrix3<double> K     = stiffness(point, at.positions, kind); // symmetric
+        const double         *share = &shares[n_nodes * point];
+        double               *entry = blocks.data();
+        for (unsigned int a = 0; a < n_nodes; ++a)
           for (unsigned int b = 0; b <= a; ++b)
             for (int j = 0; j < 3; ++j)
               for (int i = 0; i < 3; ++i)
-                *entry++ += of_nodes[a] * of_nodes[b] * columns[j][i];
+                *entry++ += share[a] * share[b] * K[j][i];
       }
-      scatter->add_blocks(cell, blocks.data(), values);
+      scatter->add_blocks(active_cells[active], blocks.data(), values);
     }
   }
 
@@ -387,6 +415,7 @@ namespace Exemplar
            + node_positions.memory_consumption() + node_sums.memory_consumption()
            + dealii::MemoryConsumption::memory_consumption(tension)
            + dealii::MemoryConsumption::memory_consumption(amounts)
+           + dealii::MemoryConsumption::memory_consumption(held_then)
            + (scatter ? scatter->memory_consumption() : 0);
   }
 

@@ -123,6 +123,13 @@ namespace Exemplar
                           const double *positions,
                           double       *vectors);
 
+    /// Replace n vectors F a by what add_fibre_forces() takes where the energy of a point is its amount [J] times |F a| - 1, which below the
+    /// least stretch goes on as a parabola of equal slope. Returns the energy [J].
+    double (*pull_fibres)(const double *amounts,
+                          std::size_t   n,
+                          double        least_stretch,
+                          double       *vectors);
+
     /// Add forces of points begin to end - 1, the derivative by F a and a number >= 0 a point, to four numbers a node: times
     /// the shape gradients along the fibre, of which the last one's sign does not count.
     void (*add_fibre_forces)(const FibreArrays &,

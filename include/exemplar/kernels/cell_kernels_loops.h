@@ -39,6 +39,7 @@ namespace Exemplar::Loops
              add_patch_products<Number>,
              multiply_nodes<Number>,
              fibre_vectors<Number, n_nodes>,
+             pull_fibres<Number>,
              add_fibre_forces<Number, n_nodes> };
   }
 } // namespace Exemplar::Loops

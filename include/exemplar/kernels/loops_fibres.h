@@ -4,6 +4,7 @@
 
 #include <exemplar/kernels/loops_io.h>
 
+#include <algorithm>
 #include <limits>
 
 // Where fibres are and what they pull at: vectors of a cell's nodes, four numbers a node.
@@ -32,6 +33,55 @@ namespace Exemplar::Loops
       for (int i = 0; i < 4; ++i)
         vectors[4 * (point - begin) + i] = sum[i];
     }
+  }
+
+  template <typename Number>
+  inline double
+  pull_fibres(const double     *amounts,
+              const std::size_t n,
+              const double      least_stretch,
+              double           *vectors)
+  {
+    constexpr std::size_t width = LaneGroup<Number>::width;
+    const Number          least(least_stretch);
+    Number                energy(0.);
+    alignas(64) double    lanes[width];
+    for (std::size_t begin = 0; begin < n; begin += width)
+    {
+      const std::size_t  n_here = std::min(width, n - begin);
+      alignas(64) double amounts_here[width], factors[width], forces[width];
+      for (std::size_t l = 0; l < width; ++l)
+      {
+        const std::size_t i = begin + std::min(l, n_here - 1);
+        const double     *v = vectors + 4 * i;
+        lanes[l]            = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+        amounts_here[l]     = l < n_here ? amounts[i] : 0.;
+      }
+      const Number amount  = Lanes<Number>::load(amounts_here);
+      const Number square  = Lanes<Number>::load(lanes);
+      const Number stretch = sqrt(square);
+      const Number usual   = max(stretch, least);
+      const Number factor  = amount / usual;
+      // below the least stretch the energy is a parabola
+      energy
+          += amount * (usual - Number(1.))
+             - select(stretch < least,
+                      amount * (least * least - square) * Number(0.5 / least_stretch), Number(0.));
+      Lanes<Number>::store(factor, factors);
+      Lanes<Number>::store(factor * stretch, forces);
+      for (std::size_t l = 0; l < n_here; ++l)
+      {
+        double *v = vectors + 4 * (begin + l);
+        for (int c = 0; c < 3; ++c)
+          v[c] *= factors[l];
+        v[3] = forces[l];
+      }
+    }
+    Lanes<Number>::store(energy, lanes);
+    double sum = 0.;
+    for (const double value : lanes)
+      sum += value;
+    return sum;
   }
 
   template <typename Number, int n_nodes>
