@@ -21,6 +21,7 @@ namespace Exemplar
     newest.y.swap(y);
     newest.rho = 1. / curvature;
     newest.inverse_y.clear();
+    newest.products.clear();
     return true;
   }
 
@@ -56,15 +57,19 @@ namespace Exemplar
         apply(pair.inverse_y);
       }
     }
-    for (std::size_t i = 0; i < k; ++i)
+    for (std::size_t j = 0; j < k; ++j)
     {
-      correction.columns.push_back(&pairs[i].inverse_y);
-      for (std::size_t j = i; j < k; ++j)
+      Pair &pair = pairs[j];
+      correction.columns.push_back(&pair.inverse_y);
+      for (std::size_t back = pair.products.size(); back <= j; ++back)
+        pair.products.push_back({ exchange->sum(dot(pairs[j - back].s, pair.y)),
+                                  exchange->sum(dot(pairs[j - back].y, pair.inverse_y)) });
+      for (std::size_t i = 0; i <= j; ++i)
       {
-        R(i, j)      = exchange->sum(dot(pairs[i].s, pairs[j].y));
-        middle(i, j) = middle(j, i) = exchange->sum(dot(pairs[i].y, pairs[j].inverse_y));
+        R(i, j)      = pair.products[j - i][0];
+        middle(i, j) = middle(j, i) = pair.products[j - i][1];
       }
-      middle(i, i) += R(i, i);
+      middle(j, j) += R(j, j);
     }
     // R^-1, and R^-T (D + Y^T H0 Y) R^-1
     dealii::FullMatrix<double> inverse(k, k), product(k, k), corner(k, k);

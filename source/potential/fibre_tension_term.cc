@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/padded_nodes.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/words.h>
@@ -10,8 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
-#include <type_traits>
 
 namespace Exemplar
 {
@@ -37,11 +38,11 @@ namespace Exemplar
     }
 
     bool
-    is_of_time_alone(const std::string &formula, const std::string &key)
+    is_of(const std::string &variables, const std::string &formula, const std::string &key)
     {
       try
       {
-        const Expression expression(key, formula, "t", 1);
+        const Expression expression(key, formula, variables, 1);
         return true;
       }
       catch (const UserError &)
@@ -126,19 +127,24 @@ namespace Exemplar
                                      const FESpace             &fe_space,
                                      const std::vector<double> &held)
       : of_material(material.tensions()), material(material), fe_space(fe_space), held(held),
-        tension(fe_space.n_cells(), 0.)
+        kernels(best_kernels(fe_space.element())), node_positions(4 * fe_space.n_nodes()),
+        node_sums(4 * fe_space.n_nodes()), tension(fe_space.n_cells(), 0.)
   {
     for (const FibreTensions::Source &source : of_material.sources)
     {
       const std::string key        = source.section + "/Fibre tension";
-      const bool        is_of_time = is_of_time_alone(source.formula, key);
+      const bool        is_of_time = is_of("t", source.formula, key);
       laws.push_back({ Expression(key, source.formula, is_of_time ? "t" : "xyzt", 1), !is_of_time,
+                       !is_of("xyz", source.formula, key),
                        TensionCurve(source.curve, key + " curve") });
+      are_constant &= laws.back().curve.is_constant();
+      are_steady &= !laws.back().depends_on_time;
     }
     for (unsigned int cell = 0; cell < of_material.of_cells.size(); ++cell)
       if (of_material.of_cells[cell] > 0)
         active_cells.push_back(cell);
     keep_shares();
+    amounts.assign(active_cells.size() * points_per_cell(fe_space.element()), 0.);
   }
 
   void
@@ -151,7 +157,7 @@ namespace Exemplar
   FibreTensionTerm::follow_parameters()
   {
     keep_shares();
-    set_time(time);
+    find_tensions();
   }
 
   std::vector<double>
@@ -187,10 +193,25 @@ namespace Exemplar
   void
   FibreTensionTerm::set_time(const double new_time)
   {
-    time                             = new_time;
+    time = new_time;
+    if (!are_known || !are_steady || held != held_then)
+      find_tensions();
+  }
+
+  void
+  FibreTensionTerm::find_tensions()
+  {
     const std::vector<double> values = tensions_at(time);
+    const auto n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
+    held_then           = held;
+    are_known           = true;
+    amounts.clear();
     for (std::size_t i = 0; i < active_cells.size(); ++i)
+    {
       tension[active_cells[i]] = values[i];
+      for (unsigned int k = 0; k < n_points; ++k)
+        amounts.push_back(values[i] * fe_space.volume(n_points * active_cells[i] + k));
+    }
   }
 
   bool
@@ -207,20 +228,29 @@ namespace Exemplar
     const unsigned int cell = fe_space.cell_of(point);
     if (of_material.of_cells.empty() || of_material.of_cells[cell] == 0)
       return {};
-    const auto &along = material.grain_axes(cell).along;
-    Fibre       found;
-    found.rest       = { { along[0], along[1], along[2] } };
-    found.now        = {};
-    const auto nodes = fe_space.nodes(cell);
-    const auto g     = fe_space.gradients(point);
+    const auto           &along = material.grain_axes(cell).along;
+    const Vector3<double> rest  = { { along[0], along[1], along[2] } };
+    Vector3<double>       now{};
+    const auto            nodes = fe_space.nodes(cell);
+    const auto            g     = fe_space.gradients(point);
     for (unsigned int a = 0; a < nodes.size(); ++a)
     {
-      const double share = dot(g[a], found.rest);
+      const double share = dot(g[a], rest);
       for (int i = 0; i < 3; ++i)
-        found.now[i] += share * positions[3 * nodes[a] + i];
+        now[i] += share * positions[3 * nodes[a] + i];
     }
-    found.stretch      = length(found.now);
-    found.curve        = laws[of_material.of_cells[cell] - 1].curve.at(found.stretch);
+    Fibre found = at_vector(cell, now);
+    found.rest  = rest;
+    return found;
+  }
+
+  FibreTensionTerm::Fibre
+  FibreTensionTerm::at_vector(const unsigned int cell, const Vector3<double> &now) const
+  {
+    Fibre found{};
+    found.now          = now;
+    found.stretch      = length(now);
+    found.curve        = curve(cell).at(found.stretch);
     found.force_factor = found.stretch < TensionCurve::least_stretch
                              ? found.curve.slope
                              : found.curve.force / found.stretch;
@@ -231,81 +261,99 @@ namespace Exemplar
   FibreTensionTerm::keep_shares()
   {
     const auto n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
+    nodes.clear();
     shares.clear();
+    std::vector<unsigned int> order(nodes_per_cell(fe_space.element()));
     for (const unsigned int cell : active_cells)
     {
+      const auto of_cell = fe_space.nodes(cell);
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(), order.end(),
+                [&](const unsigned int a, const unsigned int b)
+                { return of_cell[a] < of_cell[b]; });
+      for (const unsigned int a : order)
+        nodes.push_back(of_cell[a]);
       const auto           &along = material.grain_axes(cell).along;
       const Vector3<double> rest  = { { along[0], along[1], along[2] } };
       for (unsigned int point = n_points * cell; point < n_points * (cell + 1); ++point)
-        for (const Vector3<double> &g : fe_space.gradients(point))
-          shares.push_back(dot(g, rest));
+        for (const unsigned int a : order)
+          shares.push_back(dot(fe_space.gradients(point)[a], rest));
     }
   }
 
   void
   FibreTensionTerm::add(const TermPoint &at, ElasticSums &sums)
   {
-    if (nodes_per_cell(fe_space.element())
-        == 4) // a number that the compiler knows is twice as fast
-      add_all(at.positions, sums, std::integral_constant<std::size_t, 4>());
-    else
-      add_all(at.positions, sums, static_cast<std::size_t>(nodes_per_cell(fe_space.element())));
-  }
-
-  template <typename Number>
-  void
-  FibreTensionTerm::add_all(const Vector &positions, ElasticSums &sums, const Number n_nodes) const
-  {
-    const auto          n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
-    const double *const x        = positions.begin();
-    double *const       gradient = sums->gradient.begin();
-    double *const       scale    = sums->force_scale.begin();
-    const double       *share    = shares.data();
-    double              energy   = sums->energy;
-    for (const unsigned int cell : active_cells)
+    constexpr std::size_t n_at_once = 64; // few enough for the fastest memory
+    const FibreArrays     fibres{ nodes.data(), shares.data() };
+    const std::size_t     n = active_cells.size() * points_per_cell(fe_space.element());
+    double                vectors[4 * n_at_once];
+    double                energy = sums->energy;
+    pad_nodes(at.positions, node_positions);
+    node_sums.fill(0.);
+    for (std::size_t begin = 0; begin < n; begin += n_at_once)
     {
-      const unsigned int *const nodes = fe_space.nodes(cell).data();
-      const TensionCurve       &curve = laws[of_material.of_cells[cell] - 1].curve;
-      for (unsigned int point = n_points * cell; point < n_points * (cell + 1); ++point)
-      {
-        Vector3<double> now{};
-        for (std::size_t a = 0; a < n_nodes; ++a)
-          for (int i = 0; i < 3; ++i)
-            now[i] += share[a] * x[3 * nodes[a] + i];
-        const double        stretch  = length(now);
-        const bool          is_usual = stretch >= TensionCurve::least_stretch;
-        TensionCurve::Value value{ stretch - 1., 1., 0. };
-        if (!is_usual || !curve.is_constant())
-          value = curve.at(stretch);
-        const double amount = fe_space.volume(point) * tension[cell];
-        const double factor = is_usual ? value.force / stretch : value.slope;
-        energy += amount * value.energy;
-        for (std::size_t a = 0; a < n_nodes; ++a)
-        {
-          const double of_node = amount * share[a];
-          for (int i = 0; i < 3; ++i)
-            gradient[3 * nodes[a] + i] += of_node * factor * now[i];
-          scale[nodes[a]] += std::abs(of_node) * value.force;
-        }
-        share += n_nodes;
-      }
+      const std::size_t end = std::min(begin + n_at_once, n);
+      kernels.fibre_vectors(fibres, begin, end, node_positions.data(), vectors);
+      energy += are_constant ? kernels.pull_fibres(&amounts[begin], end - begin,
+                                                   TensionCurve::least_stretch, vectors)
+                             : find_forces(begin, end, vectors);
+      kernels.add_fibre_forces(fibres, begin, end, vectors, node_sums.data());
     }
     sums->energy = energy;
+    for (std::size_t node = 0; node < fe_space.n_nodes(); ++node)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        sums->gradient[3 * node + c] += node_sums[4 * node + c];
+      sums->force_scale[node] += node_sums[4 * node + 3];
+    }
   }
 
-  void
-  FibreTensionTerm::along_fibre(const unsigned int                          point,
-                                const dealii::ArrayView<const unsigned int> nodes,
-                                std::vector<double>                        &along_nodes) const
+  double
+  FibreTensionTerm::find_forces(const std::size_t begin,
+                                const std::size_t end,
+                                double           *vectors) const
   {
-    const unsigned int    cell  = fe_space.cell_of(point);
-    const auto            own   = fe_space.nodes(cell);
-    const auto           &along = material.grain_axes(cell).along;
-    const Vector3<double> a     = { { along[0], along[1], along[2] } };
-    along_nodes.clear();
-    for (const unsigned int node : nodes)
-      along_nodes.push_back(
-          dot(fe_space.gradients(point)[std::find(own.begin(), own.end(), node) - own.begin()], a));
+    double energy = 0.;
+    for (std::size_t i = begin; i < end; ++i, vectors += 4)
+    {
+      const double stretch
+          = std::sqrt(vectors[0] * vectors[0] + vectors[1] * vectors[1] + vectors[2] * vectors[2]);
+      const bool                is_usual = stretch >= TensionCurve::least_stretch;
+      const TensionCurve::Value value
+          = curve(active_cells[i / points_per_cell(fe_space.element())]).at(stretch);
+      const double factor = amounts[i] * (is_usual ? value.force / stretch : value.slope);
+      energy += amounts[i] * value.energy;
+      for (int c = 0; c < 3; ++c)
+        vectors[c] *= factor;
+      vectors[3] = amounts[i] * value.force;
+    }
+    return energy;
+  }
+
+  Matrix3<double>
+  FibreTensionTerm::stiffness(const std::size_t point,
+                              const Vector     &positions,
+                              const Tangent     kind) const
+  {
+    const unsigned int  n_nodes = nodes_per_cell(fe_space.element());
+    const std::size_t   active  = point / points_per_cell(fe_space.element());
+    const unsigned int *of_cell = &nodes[n_nodes * active];
+    Vector3<double>     now{};
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (int i = 0; i < 3; ++i)
+        now[i] += shares[n_nodes * point + a] * positions[3 * of_cell[a] + i];
+    const Fibre     f = at_vector(active_cells[active], now);
+    Matrix3<double> columns{};
+    for (int j = 0; j < 3; ++j)
+    {
+      Vector3<double> unit{};
+      unit[j]                      = amounts[point];
+      const Vector3<double> column = f.change(unit, kind);
+      for (int i = 0; i < 3; ++i)
+        columns[i][j] = column[i];
+    }
+    return columns;
   }
 
   void
@@ -314,36 +362,26 @@ namespace Exemplar
                                 std::vector<double> &values,
                                 std::vector<double> & /*columns*/)
   {
-    const auto          n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
-    const std::size_t   n_blocks = n_block_columns(nodes_per_cell(fe_space.element()));
-    std::vector<double> blocks, of_nodes;
-    for (const unsigned int cell : active_cells)
+    const unsigned int n_points = points_per_cell(fe_space.element()),
+                       n_nodes  = nodes_per_cell(fe_space.element());
+    std::vector<double> blocks(3 * n_block_columns(n_nodes));
+    for (std::size_t active = 0; active < active_cells.size(); ++active)
     {
-      if (tension[cell] == 0.)
+      if (tension[active_cells[active]] == 0.)
         continue;
-      blocks.assign(3 * n_blocks, 0.);
-      const std::vector<unsigned int> nodes = scatter->nodes(cell);
-      for (unsigned int point = n_points * cell; point < n_points * (cell + 1); ++point)
+      std::fill(blocks.begin(), blocks.end(), 0.);
+      for (std::size_t point = n_points * active; point < n_points * (active + 1); ++point)
       {
-        const Fibre     f = *fibre(point, at.positions);
-        Matrix3<double> columns{}; // column j is row j
-        for (int j = 0; j < 3; ++j)
-        {
-          Vector3<double> unit{};
-          unit[j]                      = fe_space.volume(point) * tension[cell];
-          const Vector3<double> column = f.change(unit, kind);
-          for (int i = 0; i < 3; ++i)
-            columns[j][i] = column[i];
-        }
-        along_fibre(point, dealii::make_array_view(nodes), of_nodes);
-        double *entry = blocks.data();
-        for (unsigned int a = 0; a < of_nodes.size(); ++a)
+        const Matrix3<double> K     = stiffness(point, at.positions, kind); // symmetric
+        const double         *share = &shares[n_nodes * point];
+        double               *entry = blocks.data();
+        for (unsigned int a = 0; a < n_nodes; ++a)
           for (unsigned int b = 0; b <= a; ++b)
             for (int j = 0; j < 3; ++j)
               for (int i = 0; i < 3; ++i)
-                *entry++ += of_nodes[a] * of_nodes[b] * columns[j][i];
+                *entry++ += share[a] * share[b] * K[j][i];
       }
-      scatter->add_blocks(cell, blocks.data(), values);
+      scatter->add_blocks(active_cells[active], blocks.data(), values);
     }
   }
 
@@ -373,7 +411,11 @@ namespace Exemplar
   {
     return dealii::MemoryConsumption::memory_consumption(active_cells)
            + dealii::MemoryConsumption::memory_consumption(shares)
+           + dealii::MemoryConsumption::memory_consumption(nodes)
+           + node_positions.memory_consumption() + node_sums.memory_consumption()
            + dealii::MemoryConsumption::memory_consumption(tension)
+           + dealii::MemoryConsumption::memory_consumption(amounts)
+           + dealii::MemoryConsumption::memory_consumption(held_then)
            + (scatter ? scatter->memory_consumption() : 0);
   }
 

@@ -55,7 +55,7 @@ namespace Exemplar
   ObstacleTerm::rubbing_at(const Vector &positions) const
   {
     std::vector<Rubbing> result;
-    for (const Contact &contact : contacts(positions))
+    for (const Contact &contact : touches(positions))
       if (const auto at = rubbing_of(contact))
         result.push_back(*at);
     std::sort(result.begin(), result.end(),

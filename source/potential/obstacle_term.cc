@@ -61,6 +61,7 @@ namespace Exemplar
     if (standing.size() != obstacles.all.size())
       follow_obstacles();
     TouchingTerm::follow_parameters();
+    found.positions.reinit(0);
   }
 
   void
@@ -75,6 +76,7 @@ namespace Exemplar
     time = new_time;
     for (StandingObstacle &obstacle : standing)
       obstacle.move_to(time);
+    found.positions.reinit(0);
   }
 
   ContactSearch
@@ -91,6 +93,18 @@ namespace Exemplar
       if (is_there(i))
         search(i).append(positions, range, result);
     return result;
+  }
+
+  const std::vector<Contact> &
+  ObstacleTerm::touches(const Vector &positions) const
+  {
+    if (found.positions.size() != positions.size()
+        || !std::equal(positions.begin(), positions.end(), found.positions.begin()))
+    {
+      found.contacts  = contacts(positions);
+      found.positions = positions;
+    }
+    return found.contacts;
   }
 
   void
@@ -165,6 +179,7 @@ namespace Exemplar
     step.start     = at.positions;
     step.has_begun = true;
     follow_times(at);
+    found.positions.reinit(0);
     step.rubbing.clear();
     step.n_renewals   = 0;
     step.is_beginning = true;
@@ -233,6 +248,7 @@ namespace Exemplar
       springs->leave_step();
     step.rubbing.clear();
     step.there.clear();
+    found.positions.reinit(0);
   }
 
   // The potential
@@ -358,7 +374,8 @@ namespace Exemplar
   ObstacleTerm::memory_consumption() const
   {
     std::size_t bytes = memory_of_touching() + node_areas.size() * sizeof(double)
-                        + step.start.memory_consumption();
+                        + step.start.memory_consumption() + found.positions.memory_consumption()
+                        + found.contacts.capacity() * sizeof(Contact);
     for (const Obstacle &obstacle : obstacles.all)
       bytes += obstacle.memory_consumption();
     for (const KeptPairs &pairs : kept)

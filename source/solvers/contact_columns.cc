@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/solvers/contact_columns.h>
 
+#include <algorithm>
+
 namespace Exemplar
 {
   namespace
@@ -79,16 +81,82 @@ namespace Exemplar
     return rows;
   }
 
-  double
-  ContactColumns::product(const Part &a, const Part &b) const
+  void
+  ContactColumns::add_entries(const Part                     &row,
+                              const std::vector<std::size_t> &nodes,
+                              double                         *entries_of_row) const
   {
-    const bool   in_order = a.node >= b.node;
-    const Block &block    = in_order ? blocks[a.node][b.node] : blocks[b.node][a.node];
-    double       sum      = 0.;
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j)
-        sum += a.direction[i] * (in_order ? block[3 * i + j] : block[3 * j + i]) * b.direction[j];
-    return sum;
+    const double x = row.direction[0], y = row.direction[1], z = row.direction[2];
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+    {
+      const bool        in_order = row.node >= nodes[k];
+      const Block      &block  = in_order ? blocks[row.node][nodes[k]] : blocks[nodes[k]][row.node];
+      const std::size_t by_row = in_order ? 3 : 1, by_column = in_order ? 1 : 3;
+      for (std::size_t j = 0; j < 3; ++j)
+        entries_of_row[3 * k + j] += x * block[by_column * j] + y * block[by_row + by_column * j]
+                                     + z * block[2 * by_row + by_column * j];
+    }
+  }
+
+  void
+  ContactColumns::find_entries(const std::vector<std::vector<Part>> &rows,
+                               dealii::FullMatrix<double>           &W) const
+  {
+    constexpr std::size_t    none = -1;
+    std::vector<std::size_t> nodes, place(columns.size(), none); // among these
+    for (const std::vector<Part> &row : rows)
+      for (const Part &part : row)
+        if (place[part.node] == none)
+        {
+          place[part.node] = nodes.size();
+          nodes.push_back(part.node);
+        }
+    std::vector<double> line(3 * nodes.size());
+    for (std::size_t r = 0; r < rows.size(); ++r)
+    {
+      std::fill(line.begin(), line.end(), 0.);
+      for (const Part &part : rows[r])
+        add_entries(part, nodes, line.data());
+      for (std::size_t s = 0; s <= r; ++s)
+      {
+        double sum = 0.;
+        for (const Part &part : rows[s])
+        {
+          const double *entry = &line[3 * place[part.node]];
+          sum += entry[0] * part.direction[0] + entry[1] * part.direction[1]
+                 + entry[2] * part.direction[2];
+        }
+        W(r, s) = sum;
+      }
+    }
+  }
+
+  void
+  ContactColumns::add_correction(const std::vector<std::vector<Part>> &rows,
+                                 const LbfgsCorrection                &correction,
+                                 dealii::FullMatrix<double>           &W) const
+  {
+    const std::size_t m = rows.size(), k = correction.columns.size();
+    if (m == 0 || k == 0)
+      return;
+    dealii::FullMatrix<double> B(k, m), MB(k, m);
+    for (std::size_t r = 0; r < m; ++r)
+      for (const Part &part : rows[r])
+        for (unsigned int c = 0; c < 3; ++c)
+          if (const int unknown = free_dofs.unknown_index(part.first_dof + c);
+              unknown != FreeDofs::held)
+            for (std::size_t l = 0; l < k; ++l)
+              B(l, r) += part.direction[c] * (*correction.columns[l])[unknown];
+    correction.matrix.mmult(MB, B);
+    for (std::size_t r = 0; r < m; ++r)
+      for (std::size_t l = 0; l < k; ++l)
+      {
+        const double  factor = MB(l, r);
+        const double *line   = &B(l, 0);
+        double       *sum    = &W(r, 0);
+        for (std::size_t s = 0; s <= r; ++s)
+          sum[s] += factor * line[s];
+      }
   }
 
   dealii::FullMatrix<double>
@@ -96,33 +164,12 @@ namespace Exemplar
   {
     follow_metric();
     const std::vector<std::vector<Part>> rows = parts_of(gaps);
-    const std::size_t                    m = rows.size(), k = correction.columns.size();
-    dealii::FullMatrix<double>           W(m, m), B(m, k), BM(m, k);
-    for (std::size_t r = 0; r < m; ++r)
-      for (std::size_t s = 0; s <= r; ++s)
-      {
-        for (const Part &a : rows[r])
-          for (const Part &b : rows[s])
-            W(r, s) += product(a, b);
+    dealii::FullMatrix<double>           W(rows.size(), rows.size());
+    find_entries(rows, W);
+    add_correction(rows, correction, W);
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      for (std::size_t s = 0; s < r; ++s)
         W(s, r) = W(r, s);
-      }
-    if (m == 0 || k == 0)
-      return W;
-    for (std::size_t r = 0; r < m; ++r)
-      for (std::size_t l = 0; l < k; ++l)
-        for (const Part &a : rows[r])
-          for (unsigned int c = 0; c < 3; ++c)
-            if (const int unknown = free_dofs.unknown_index(a.first_dof + c);
-                unknown != FreeDofs::held)
-              B(r, l) += a.direction[c] * (*correction.columns[l])[unknown];
-    B.mmult(BM, correction.matrix);
-    for (std::size_t r = 0; r < m; ++r)
-      for (std::size_t s = 0; s <= r; ++s)
-      {
-        for (std::size_t l = 0; l < k; ++l)
-          W(r, s) += BM(r, l) * B(s, l);
-        W(s, r) = W(r, s);
-      }
     return W;
   }
 

@@ -15,7 +15,9 @@ namespace Exemplar
     constexpr double       joins_below       = 0.2;  ///< widths
     constexpr double       same_weights      = 1e-3; ///< of their greatest change
     constexpr std::size_t  max_rows          = 300;  ///< of a dense problem
-  }                                                  // namespace
+    /// Of the gradient: so much of it may be left where the model's minimum should be, whose error is greater than that.
+    constexpr double forcing = 1e-2;
+  } // namespace
 
   ContactModel::ContactModel(const IncrementalPotential &potential,
                              RotatedMetric              &metric,
@@ -86,12 +88,13 @@ namespace Exemplar
   ContactModel::touch(const GapEnergies     &gaps,
                       const WeightsThere    &weights,
                       const LbfgsCorrection &correction,
-                      Direction             &free)
+                      Direction             &free,
+                      std::vector<double>   &by_row)
   {
     const Exchange        &exchange = potential.get_free_dofs().exchange();
     const ContactOperators operators
         = { [&](const std::vector<double> &forces) { return respond(forces); },
-            [&](const std::vector<double> &by_row) { return forces_of(gaps, by_row); },
+            [&](const std::vector<double> &of_rows) { return forces_of(gaps, of_rows); },
             [&](const std::vector<double> &step) { return gaps.changes(displacement(step)); },
             exchange };
     const bool                 dense = is_dense(gaps);
@@ -100,13 +103,13 @@ namespace Exemplar
       W = columns.between_rows(gaps, correction);
     for (unsigned int round = 1;; ++round)
     {
-      Touching            touching;
-      std::vector<double> by_row;
-      double              part = 1.;
+      Touching touching;
+      double   part = 1.;
       if (dense)
       {
         ContactForces found = minimize_with_contact(gaps, W, operators.changes(free.step),
-                                                    dot(free.forces, free.step));
+                                                    dot(free.forces, free.step),
+                                                    forcing * free.greatest_gradient, by_row);
         by_row              = std::move(found.forces);
         part                = found.part;
       }
@@ -260,10 +263,11 @@ namespace Exemplar
     if (!direction.correction)
       direction.correction
           = lbfgs.correction([this](std::vector<double> &vector) { metric.apply(vector); });
-    Touching touching;
+    Touching            touching;
+    std::vector<double> by_row;
     for (unsigned int round = 1;; ++round)
     {
-      touching = touch(GapEnergies(taken), weights, *direction.correction, direction);
+      touching = touch(GapEnergies(taken), weights, *direction.correction, direction, by_row);
       moved    = displacement(touching.step);
       if (round == max_rounds || !take_what_comes_near())
         break;

@@ -17,8 +17,8 @@ namespace Exemplar
       return result;
     }
 
-    /// Overwrite b by the solution of A x = b for a positive definite matrix, which is overwritten, too. There are
-    /// hundreds of rows: BLAS is worth its while.
+    /// Overwrite b by the solution of A x = b for a positive definite matrix, of which the lower triangle counts and which is
+    /// overwritten, too. There are hundreds of rows: BLAS is worth its while.
     void
     solve_by_blocks(dealii::LAPACKFullMatrix<double> &A, std::vector<double> &b)
     {
@@ -36,28 +36,32 @@ namespace Exemplar
       DenseSearch(const GapEnergies                &gaps,
                   const dealii::FullMatrix<double> &W,
                   const std::vector<double>        &free,
-                  const double                      work)
+                  const double                      work,
+                  const std::vector<double>        &first)
           : gaps(gaps), W(W), free(free), work(work)
       {
         at.forces.resize(free.size());
         at.changes.resize(free.size());
+        if (!first.empty())
+          begin_near(first);
         slopes = gaps.slopes(at.changes);
       }
 
       ContactForces
-      run()
+      run(const double enough)
       {
-        for (at.iterations = 1;; ++at.iterations)
+        for (bool is_last = false;; ++at.iterations)
         {
+          if (is_last || at.iterations == max_iterations
+              || (at.part == 1. && unbalanced() <= enough))
+            return at;
           const ContactForces step    = newton_step();
           const double        longest = gaps.longest_part(at.changes, step.changes);
           // so near the slope along the step is lost in rounding
-          const double enough  = tolerance * max_entry(at.forces);
-          const bool   is_last = longest >= 1. && at.part == 1. && max_entry(step.forces) <= enough
-                               && unbalanced() <= enough;
+          const double near = tolerance * max_entry(at.forces);
+          is_last           = longest >= 1. && at.part == 1. && max_entry(step.forces) <= near
+                    && unbalanced() <= near;
           go(is_last ? 1. : length_along(step, longest), step);
-          if (is_last || at.iterations == max_iterations)
-            return at;
         }
       }
 
@@ -67,6 +71,17 @@ namespace Exemplar
       static constexpr double       tolerance
           = 1e-3; ///< of forces before the last step; their error is its square
       static constexpr double max_slope = 0.1; ///< that a line search leaves of the first
+
+      /// Go from u = 0 towards where the first rows have these forces and the others none.
+      void
+      begin_near(const std::vector<double> &first)
+      {
+        ContactForces there{ 1., first, {}, 0 };
+        there.forces.resize(free.size());
+        there.changes = product(W, there.forces);
+        add(there.changes, 1., free);
+        at = sum(std::move(at), std::min(1., gaps.longest_part(at.changes, there.changes)), there);
+      }
 
       /// To where the function with B as a quadratic one has its minimum. With S S = B'' and e the change of the
       /// rows, (I + S W S) S e = S (free - y - W B'), which is definite whatever W is, and the forces are -B' - S S e.
@@ -163,8 +178,10 @@ namespace Exemplar
   minimize_with_contact(const GapEnergies                &gaps,
                         const dealii::FullMatrix<double> &W,
                         const std::vector<double>        &free,
-                        const double                      work)
+                        const double                      work,
+                        const double                      enough,
+                        const std::vector<double>        &first)
   {
-    return DenseSearch(gaps, W, free, work).run();
+    return DenseSearch(gaps, W, free, work, first).run(enough);
   }
 } // namespace Exemplar

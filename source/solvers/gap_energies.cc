@@ -203,21 +203,27 @@ namespace Exemplar
   {
     const std::size_t                m = diagonal.size();
     dealii::LAPACKFullMatrix<double> result(m, m);
-    std::vector<double>              sum(m), line;
+    std::vector<double>              sum(m);
     for (std::size_t i = 0; i < m; ++i)
     {
+      const std::size_t begin = i > 0 ? i - 1 : 0; // what entries beside the diagonal need, too
+      for (std::size_t j = begin; j < m; ++j)
+        sum[j] = diagonal[i] * matrix(i, j);
       const auto add = [&](const double factor, const std::size_t row)
       {
         if (factor != 0.)
-          for (std::size_t j = 0; j < m; ++j)
+          for (std::size_t j = begin; j < m; ++j)
             sum[j] += factor * matrix(row, j);
       };
-      std::fill(sum.begin(), sum.end(), 0.);
-      add(diagonal[i], i);
       add(i > 0 ? beside_next[i - 1] : 0., i - 1);
       add(beside_next[i], i + 1);
-      multiply(sum, line);
-      std::copy(line.begin(), line.end(), &result(0, i)); // symmetric, and stored by columns
+      double *column = &result(0, i); // stored by columns
+      for (std::size_t j = i; j < m; ++j)
+        column[j] = diagonal[j] * sum[j];
+      for (std::size_t j = i; j + 1 < m; ++j)
+        column[j] += beside_next[j] * sum[j + 1];
+      for (std::size_t j = std::max<std::size_t>(i, 1); j < m; ++j)
+        column[j] += beside_next[j - 1] * sum[j - 1];
     }
     return result;
   }

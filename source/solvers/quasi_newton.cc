@@ -28,6 +28,7 @@ namespace Exemplar
     /// Times what is enough for the step: from there on what terms have lagged follows each iteration.
     constexpr double nearly_there          = 30.;
     constexpr double max_contraction       = 0.9;
+    constexpr double least_turn            = 1e-3; ///< of a node: less is not worth a solve [rad]
     constexpr double min_error_over_length = 2.2;
 
     double
@@ -225,6 +226,22 @@ namespace Exemplar
   }
 
   void
+  QuasiNewton::turn_metric()
+  {
+    StepClock::Scope    scope(clock, Phase::solve);
+    std::vector<float> &now = memory.node_rotations;
+    potential.get_body().node_rotations(now);
+    float turn = 0.F;
+    for (std::size_t i = 0; i < now.size(); ++i)
+      turn = std::max(turn, std::abs(now[i] - node_rotations[i]));
+    if (!(potential.get_free_dofs().exchange().max(turn) > least_turn))
+      return;
+    node_rotations.swap(now);
+    metric.rotate(node_rotations);
+    contact.forget_response();
+  }
+
+  void
   QuasiNewton::measure(const State &trial, const Evaluation &evaluation, Iteration &iteration) const
   {
     potential.get_free_dofs().gather(evaluation.gradient, iteration.gradient);
@@ -255,8 +272,9 @@ namespace Exemplar
     metric.add_example_forces(changes, step);
     if (contact.is_possible())
     {
-      direction.forces         = step;
-      direction.weight_changes = std::move(changes);
+      direction.forces            = step;
+      direction.weight_changes    = std::move(changes);
+      direction.greatest_gradient = potential.get_free_dofs().max_magnitude(evaluation.gradient);
     }
     if (touches)
       contact.find_free_step(of_body, direction);
@@ -313,7 +331,8 @@ namespace Exemplar
     {
       {
         StepClock::Scope scope(clock, Phase::evaluate);
-        potential.minimize_over_weights(trial, RotationUse::find_and_forget, evaluation);
+        potential.minimize_over_weights(
+            trial, in_contact ? RotationUse::update : RotationUse::find_and_forget, evaluation);
       }
       if (is_better({ potential, evaluation }, before,
                     expected_change(memory.iteration, slope, length)))
@@ -410,6 +429,9 @@ namespace Exemplar
       }
       else if (is_solved)
         break;
+      // limbs that give way turn so far that a step in the old frame would stretch them
+      if (in_contact && n_with_metric > 0)
+        turn_metric();
       memory.old_weights       = trial.weights;
       const double       slope = find_step(trial, evaluation, iteration);
       const unsigned int most  = in_contact ? max_contact_iterations : max_iterations;
@@ -499,9 +521,10 @@ namespace Exemplar
     return metric.memory_consumption() + contact.memory_consumption()
            + history.positions.memory_consumption() + lbfgs.memory_consumption()
            + prediction.memory_consumption() + memory_consumption(node_rotations)
-           + memory_consumption(iteration.gradient) + memory_consumption(iteration.direct)
-           + memory_consumption(iteration.rotated) + memory_consumption(memory.old_gradient)
-           + memory.displacement.memory_consumption() + memory.trial.positions.memory_consumption()
+           + memory_consumption(memory.node_rotations) + memory_consumption(iteration.gradient)
+           + memory_consumption(iteration.direct) + memory_consumption(iteration.rotated)
+           + memory_consumption(memory.old_gradient) + memory.displacement.memory_consumption()
+           + memory.trial.positions.memory_consumption()
            + memory.trial.velocities.memory_consumption();
   }
 } // namespace Exemplar

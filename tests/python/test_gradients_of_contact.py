@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Gradients of bodies that meet obstacles, against differences of equilibria and of steps."""
 import pathlib
+import struct
 import tempfile
 import unittest
 
@@ -248,6 +249,14 @@ class Refusals(unittest.TestCase):
     def test_by_name(self):
         self.refuse("beside obstacles that come or go, as Obstacles/it does yet. Leave out its From and Until", Until=0.05)
         self.refuse("of friction whose normal forces are not those of the step's end yet. Set Obstacles/Lag tolerance", Friction=0.3)
+
+    def test_friction_on_a_surface_that_a_cache_bends(self):
+        surface, cache = SHAPES["surface"].text(np.zeros(3), None), pathlib.Path(directory.name) / "cap.pc2"
+        rest = np.loadtxt(surface.split()[1], usecols=(1, 2, 3), max_rows=5)
+        samples = np.array([rest, rest + [[0, 0, 0.01]] + 0.01 * np.eye(5, 3)], "<f4")
+        cache.write_bytes(struct.pack("<12siiffi", b"POINTCACHE2", 1, 5, 0, 1, 2) + samples.tobytes())
+        self.refuse("of friction on a surface whose vertices move by themselves, as those of Obstacles/it yet. Set its Friction to 0, "
+                    "or leave out its Follow cache", **{"Shape": surface, "Follow cache": str(cache), "Friction": 0.3, "Lag tolerance": 1e-10})
 
     def test_friction_of_one_equilibrium(self):
         case = Case(STATIC, SHAPES["plane"], friction=0.2)

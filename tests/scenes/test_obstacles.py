@@ -237,6 +237,15 @@ class Statics(ObstacleTest):
         # 1e-6 E L times how far it has sunk, at most the width
         self.assertLess(abs(springs), 1e-6 * 1e7 * 0.1 * sqrt(3) * 5e-3 * 0.1 * sqrt(3))
 
+    def test_springs_beside_friction_bear_what_it_creeps(self):
+        diameter, tangent = 0.1 * sqrt(3), 0.25
+        cosine = 1 / sqrt(1 + tangent**2)
+        down = G * tangent * cosine
+        last = read_csv(self.solve({**self.CUBE, "Obstacles/Free": "friction", "Obstacles/floor/Friction": 2 * tangent, "Time/Increments": "1",
+                                    "Obstacles/Lag tolerance": "1e-8", "Loads/Gravity": f"{down}, 0, {-G * cosine}"}))[-1]
+        borne = down + last["contact_floor_x"]  # of 1 kg
+        self.assertAlmostEqual(borne / (1e-6 * 1e7 * diameter * 1e-3 * diameter * (1 - sqrt(0.5))), 1, delta=0.1)
+
     def test_a_body_that_an_obstacle_presses_is_loaded(self):
         pressed = {**self.CUBE, "Loads/Gravity": None, "Handles/Names": "soles", "Handles/soles/Select": "boundary 5",
                    "Obstacles/floor/Shape": "plane 0 0 0.06 0 0 -1", "Obstacles/floor/Motion": "0; 0; -0.02*t"}

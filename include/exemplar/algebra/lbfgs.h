@@ -6,6 +6,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <array>
 #include <cstddef>
 #include <deque>
 #include <functional>
@@ -49,7 +50,8 @@ namespace Exemplar
       std::size_t bytes = 0;
       for (const Pair &pair : pairs)
         bytes
-            += sizeof(double) * (pair.s.capacity() + pair.y.capacity() + pair.inverse_y.capacity());
+            += sizeof(double) * (pair.s.capacity() + pair.y.capacity() + pair.inverse_y.capacity())
+               + sizeof(double) * 2 * pair.products.capacity();
       return bytes;
     }
 
@@ -102,6 +104,8 @@ namespace Exemplar
       double              rho   = 0.; ///< 1 / s.y
       double              alpha = 0.; ///< rho s.vector, of before()
       std::vector<double> inverse_y;  ///< H0 y, if correction() has wanted it; else empty
+      /// With s_i.y and y_i.H0 y of the pair i places before this one, from 0 on, if correction() has wanted them.
+      std::vector<std::array<double, 2>> products;
 
       template <typename Archive>
       void

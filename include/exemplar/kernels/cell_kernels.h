@@ -20,6 +20,13 @@ namespace Exemplar
     const double       *values;
   };
 
+  /// Cells with active fibres, as their loops read them.
+  struct FibreArrays
+  {
+    const unsigned int *nodes;  ///< 4 or 10 a cell
+    const double       *shares; ///< shape gradients along the fibre [1/m], alike a point
+  };
+
   /// The loops over the cells of an element, for batches begin to end - 1; those with a task are for
   /// the task's law.
   struct CellKernels
@@ -107,6 +114,29 @@ namespace Exemplar
 
     /// Add the product of a symmetric matrix of n rows with four numbers a node.
     void (*multiply_nodes)(const NodalMatrix &, std::size_t n, const double *x, double *product);
+
+    /// Find the vectors F a of points begin to end - 1 from positions of four numbers a node: four numbers a point, from the
+    /// first point on, of which the last means nothing.
+    void (*fibre_vectors)(const FibreArrays &,
+                          std::size_t   begin,
+                          std::size_t   end,
+                          const double *positions,
+                          double       *vectors);
+
+    /// Replace n vectors F a by what add_fibre_forces() takes where the energy of a point is its amount [J] times |F a| - 1, which below the
+    /// least stretch goes on as a parabola of equal slope. Returns the energy [J].
+    double (*pull_fibres)(const double *amounts,
+                          std::size_t   n,
+                          double        least_stretch,
+                          double       *vectors);
+
+    /// Add forces of points begin to end - 1, the derivative by F a and a number >= 0 a point, to four numbers a node: times
+    /// the shape gradients along the fibre, of which the last one's sign does not count.
+    void (*add_fibre_forces)(const FibreArrays &,
+                             std::size_t   begin,
+                             std::size_t   end,
+                             const double *forces,
+                             double       *nodal_sums);
   };
 
   /// Instruction sets for which loops are compiled; the scalar one is a reference for tests.

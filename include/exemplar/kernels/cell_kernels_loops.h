@@ -3,6 +3,7 @@
 #define exemplar_cell_kernels_loops_h
 
 #include <exemplar/kernels/loops_energy.h>
+#include <exemplar/kernels/loops_fibres.h>
 #include <exemplar/kernels/loops_nodes.h>
 #include <exemplar/kernels/loops_patches.h>
 #include <exemplar/kernels/loops_slopes.h>
@@ -36,7 +37,10 @@ namespace Exemplar::Loops
              closest_rotations<Number>,
              patch_gradients<Number, n_nodes>,
              add_patch_products<Number>,
-             multiply_nodes<Number> };
+             multiply_nodes<Number>,
+             fibre_vectors<Number, n_nodes>,
+             pull_fibres<Number>,
+             add_fibre_forces<Number, n_nodes> };
   }
 } // namespace Exemplar::Loops
 

@@ -4,9 +4,12 @@
 
 #include <exemplar/body/fe_space.h>
 #include <exemplar/body/material.h>
+#include <exemplar/kernels/cell_kernels.h>
 #include <exemplar/potential/cell_scatter.h>
 #include <exemplar/potential/potential_term.h>
 #include <exemplar/prm/expression.h>
+
+#include <deal.II/base/aligned_vector.h>
 
 #include <optional>
 #include <utility>
@@ -147,7 +150,7 @@ namespace Exemplar
     struct Law
     {
       Expression   formula;
-      bool         depends_on_place;
+      bool         depends_on_place, depends_on_time;
       TensionCurve curve;
     };
 
@@ -155,20 +158,32 @@ namespace Exemplar
     std::vector<double>
     tensions_at(double time) const;
 
-    /// add(), with so many nodes a cell.
-    template <typename Number>
-    void
-    add_all(const Vector &positions, ElasticSums &sums, Number n_nodes) const;
+    const TensionCurve &
+    curve(const unsigned int cell) const
+    {
+      return laws[of_material.of_cells[cell] - 1].curve;
+    }
 
-    /// Keep the shape gradients along the fibres.
+    /// Make tensions and amounts those of the time that is set.
+    void
+    find_tensions();
+
+    /// Replace the vectors F a of points, of active cells from the given one on, by the forces that add_fibre_forces() takes, by their
+    /// curves. Returns their energy [J].
+    double
+    find_forces(std::size_t begin, std::size_t end, double *vectors) const;
+
+    /// Keep the nodes of the cells with fibres, ascending in each, and the shape gradients along these.
     void
     keep_shares();
 
-    /// Shape gradients along the fibre at a point, in the order of `nodes`.
-    void
-    along_fibre(unsigned int                          point,
-                dealii::ArrayView<const unsigned int> nodes,
-                std::vector<double>                  &along_nodes) const;
+    /// What depends on F a alone.
+    Fibre
+    at_vector(unsigned int cell, const Vector3<double> &now) const;
+
+    /// The second derivative of a point's energy by F a [J], of active cells.
+    Matrix3<double>
+    stiffness(std::size_t point, const Vector &positions, Tangent kind) const;
 
     const FibreTensions       &of_material;
     const Material            &material;
@@ -176,11 +191,19 @@ namespace Exemplar
     const std::vector<double> &held;
     std::vector<Law>           laws; ///< in the order of FibreTensions::sources
     std::vector<unsigned int>  active_cells;
+    std::vector<unsigned int>  nodes; ///< of the active cells, ascending in each
     std::vector<double>
         shares; ///< shape gradients along the fibre, of the active cells' points and nodes in order
-    std::vector<double>        tension;
-    double                     time = 0.;
-    std::optional<CellScatter> scatter; ///< since attach()
+    const CellKernels            &kernels;
+    dealii::AlignedVector<double> node_positions, node_sums; ///< of add(), four numbers a node
+    std::vector<double>           tension;
+    std::vector<double>           amounts; ///< tension times volume of the active cells' points [J]
+    bool                          are_constant = true;  ///< whether no law has a curve
+    bool                          are_steady   = true;  ///< whether no law depends on time
+    bool                          are_known    = false; ///< whether tensions have been found
+    std::vector<double>           held_then;            ///< the held ones that they were found with
+    double                        time = 0.;
+    std::optional<CellScatter>    scatter; ///< since attach()
   };
 
   /// The term among others; null: there is none.

@@ -173,6 +173,7 @@ namespace Exemplar
     set_step(Step former)
     {
       step = std::move(former);
+      found.positions.reinit(0);
     }
 
     /// Derivatives of the slope along a displacement, of barriers and of friction whose forces are those at these
@@ -182,6 +183,13 @@ namespace Exemplar
     slopes(const Vector &positions, const Vector &along, const FESpace &fe_space) const;
 
   private:
+    /// What touches() has found last, with obstacles as they stand.
+    struct Found
+    {
+      Vector               positions; ///< empty: to be found
+      std::vector<Contact> contacts;
+    };
+
     /// What an obstacle has done at the end of a step, and since the beginning.
     struct Sums
     {
@@ -200,6 +208,10 @@ namespace Exemplar
 
     ContactSearch
     search(unsigned int obstacle) const;
+
+    /// contacts() of range 1, which are kept until the next call: forces, their rounding and their gaps are asked for at the same positions.
+    const std::vector<Contact> &
+    touches(const Vector &positions) const;
 
     /// Which obstacles are there in the step that begins at this state. Throws SolverFailure for one that appears where
     /// the body is.
@@ -225,8 +237,12 @@ namespace Exemplar
     void
     visit_touches(const Vector &positions, double range, const VisitTouch &visit) const override
     {
-      for (const Contact &contact : contacts(positions, range))
-        visit(contact);
+      if (range == 1.)
+        for (const Contact &contact : touches(positions))
+          visit(contact);
+      else
+        for (const Contact &contact : contacts(positions, range))
+          visit(contact);
     }
 
     const RubbingStep &
@@ -272,6 +288,7 @@ namespace Exemplar
     std::vector<Sums>             sums_of;  ///< of this process
     std::vector<char> has_appeared;         ///< of those with From, whether they have been there
     mutable std::vector<KeptPairs> kept;    ///< of each obstacle; no result depends on it
+    mutable Found                  found;   ///< no result depends on it
     Reached                        reached; ///< where a step ended, of this process
     SpaceVector3                   force_of_springs; ///< where a step ended, of this process [N]
     std::vector<double>            node_areas;       ///< of the whole body, by node [m^2]

@@ -57,8 +57,19 @@ namespace Exemplar
     std::vector<std::vector<Part>>
     parts_of(const GapEnergies &gaps);
 
-    double
-    product(const Part &a, const Part &b) const;
+    /// Add the entries between a direction at a node and other nodes, three numbers each, times a row's.
+    void
+    add_entries(const Part &row, const std::vector<std::size_t> &nodes, double *entries) const;
+
+    /// The lower triangle of U^T P^-1 U.
+    void
+    find_entries(const std::vector<std::vector<Part>> &rows, dealii::FullMatrix<double> &W) const;
+
+    /// Add U^T B M B^T U to it.
+    void
+    add_correction(const std::vector<std::vector<Part>> &rows,
+                   const LbfgsCorrection                &correction,
+                   dealii::FullMatrix<double>           &W) const;
 
     const FreeDofs                               &free_dofs;
     const RotatedMetric                          &metric;

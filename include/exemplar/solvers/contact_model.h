@@ -42,6 +42,7 @@ namespace Exemplar
       std::vector<double> step; ///< what they lead to without contact; then the direction
       std::vector<double> weight_changes;
       std::optional<LbfgsCorrection> correction; ///< if it is known
+      double greatest_gradient = 0.; ///< entry of the potential's gradient where it begins [N]
     };
 
     /// Find the step without contact of a body that touches, from its forces, and those on it without the examples' changes.
@@ -121,12 +122,14 @@ namespace Exemplar
       std::vector<double> step, forces;
     };
 
-    /// With these gaps, and with the weights that follow them, which change `free`.
+    /// With these gaps, and with the weights that follow them, which change `free`. `by_row` are forces of the first rows to begin
+    /// with, and then those that have been found.
     Touching
     touch(const GapEnergies     &gaps,
           const WeightsThere    &weights,
           const LbfgsCorrection &correction,
-          Direction             &free);
+          Direction             &free,
+          std::vector<double>   &by_row);
 
     /// Let the weights follow forces of contact; false if they stay.
     bool

@@ -20,13 +20,17 @@ namespace Exemplar
     unsigned int        iterations = 0;
   };
 
-  /// Find it by Newton's method from u = 0, in the space of forces. `W` = U^T H U, which may be singular, `free` = U^T H r,
-  /// the changes without contact, and `work` = r.H r. Each iteration leaves each gap a tenth at least.
+  /// Find it by Newton's method, in the space of forces. `W` = U^T H U, which may be singular, `free` = U^T H r,
+  /// the changes without contact, and `work` = r.H r. Each iteration leaves each gap a tenth at least. It may end where no row
+  /// has a force that differs by more than `enough` [N] from that of its gap: so large may an entry of the function's gradient be.
+  /// It begins at u = 0, or as near to H (r + U first) as gaps allow, with forces of the first rows.
   ContactForces
   minimize_with_contact(const GapEnergies                &gaps,
                         const dealii::FullMatrix<double> &W,
                         const std::vector<double>        &free,
-                        double                            work);
+                        double                            work,
+                        double                            enough = 0.,
+                        const std::vector<double>        &first  = {});
 } // namespace Exemplar
 
 #endif

@@ -78,7 +78,7 @@ namespace Exemplar
       void
       multiply(const std::vector<double> &vector, std::vector<double> &product) const;
 
-      /// This matrix times a symmetric one times this matrix.
+      /// The lower triangle of this matrix times a symmetric one times this matrix.
       dealii::LAPACKFullMatrix<double>
       on_both_sides_of(const dealii::FullMatrix<double> &matrix) const;
 

@@ -95,6 +95,7 @@ namespace Exemplar
       Iteration           iteration;
       std::vector<double> old_gradient, old_contact, old_weights;
       Vector              displacement;
+      std::vector<float>  node_rotations;
     };
 
     void
@@ -148,6 +149,10 @@ namespace Exemplar
     /// After a resume: rotations are functions of the positions.
     void
     rebuild_metrics(const State &accepted, double step_size, double time);
+
+    /// Turn the metric with the nodes of the trial, if they have turned since that was done last.
+    void
+    turn_metric();
 
     /// Gather the gradient at the trial, and the part of it that gaps make.
     void

@@ -118,5 +118,54 @@ namespace Exemplar::Testing
                                                  820., 1230., 0. }));
       }
     }
+
+    TEST(FibreKernels, FibresPullByTheirAmountsAndLessBelowTheLeastStretch)
+    {
+      constexpr std::size_t     n       = 11; // whole registers and a rest
+      const std::vector<double> amounts = { 2., 1., 0., 3., 1., 4., 2., 2., 5., 1., 2. };
+      for (const CellKernels *kernels : scalar_and_all_kernels(Element::P1))
+      {
+        std::vector<double> vectors(4 * n, 7.);
+        double              energy = 0.;
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          const double stretch = i == 3 ? 0.05 : i == 4 ? 0. : 0.3 * (1. + i);
+          vectors[4 * i]       = 2. / 3. * stretch;
+          vectors[4 * i + 1]   = -2. / 3. * stretch;
+          vectors[4 * i + 2]   = 1. / 3. * stretch;
+          energy += amounts[i]
+                    * (stretch < 0.1 ? -0.9 - 5. * (0.01 - stretch * stretch) : stretch - 1.);
+        }
+        EXPECT_NEAR(kernels->pull_fibres(amounts.data(), n, 0.1, vectors.data()), energy, 1e-14);
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          const double force = amounts[i] * (i == 3 ? 0.5 : i == 4 ? 0. : 1.);
+          EXPECT_NEAR(vectors[4 * i], 2. / 3. * force, 1e-15);
+          EXPECT_NEAR(vectors[4 * i + 1], -2. / 3. * force, 1e-15);
+          EXPECT_NEAR(vectors[4 * i + 2], 1. / 3. * force, 1e-15);
+          EXPECT_NEAR(vectors[4 * i + 3], force, 1e-15);
+        }
+      }
+    }
+
+    TEST(FibreKernels, VectorsAndForcesOfFibresAreSumsOverTheNodesOfACell)
+    {
+      const std::vector<unsigned int> nodes  = { 0, 2, 3, 1 };
+      const std::vector<double>       shares = { 1., -2., 0.5, 0.5 };
+      const std::vector<double>       x
+          = { 1., 2., 3., 0., 4., 4., 8., 0., 1., 1., 0., 0., 2., 6., 4., 0. };
+      const std::vector<double> force = { 2., 4., -6., 8. };
+      for (const CellKernels *kernels : scalar_and_all_kernels(Element::P1))
+      {
+        const FibreArrays   fibres{ nodes.data(), shares.data() };
+        std::vector<double> vector(4), sums(16, 1.);
+        kernels->fibre_vectors(fibres, 0, 1, x.data(), vector.data());
+        vector[3] = 0.;
+        EXPECT_EQ(vector, (std::vector<double>{ 2., 5., 9., 0. }));
+        kernels->add_fibre_forces(fibres, 0, 1, force.data(), sums.data());
+        EXPECT_EQ(sums, (std::vector<double>{ 3., 5., -5., 9., 2., 3., -2., 5., -3., -7., 13., 17.,
+                                              2., 3., -2., 5. }));
+      }
+    }
   } // namespace
 } // namespace Exemplar::Testing

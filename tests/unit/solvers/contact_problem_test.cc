@@ -117,13 +117,20 @@ namespace Exemplar::Testing
         return std::max(max_entry(r), max_entry(rows->slopes(changes(u))));
       }
 
+      ContactForces
+      find_forces(const double enough, const std::vector<double> &first) const
+      {
+        const std::vector<double> free = respond(r);
+        return minimize_with_contact(*rows, between_rows(), changes(free), dot(r, free), enough,
+                                     first);
+      }
+
       std::vector<double>
       solve_in_forces(unsigned int &iterations) const
       {
-        const std::vector<double> free = respond(r);
-        const ContactForces       found
-            = minimize_with_contact(*rows, between_rows(), changes(free), dot(r, free));
-        iterations = found.iterations;
+        const std::vector<double> free  = respond(r);
+        const ContactForces       found = find_forces(0., {});
+        iterations                      = found.iterations;
         EXPECT_EQ(found.part, 1.);
         std::vector<double> u = respond(forces(found.forces));
         add(u, found.part, free);
@@ -200,6 +207,44 @@ namespace Exemplar::Testing
           EXPECT_LT(least, body.energy(std::vector<double>(u.size())));
           EXPECT_NEAR(of_gradients, least, 3e-3 * std::abs(least));
         }
+    }
+
+    TEST(ContactProblemTest, ForcesToBeginWithSaveIterationsAndChangeNothing)
+    {
+      for (const double push : { 1., 30. })
+      {
+        SmallContact        body(6, 8, 0.7, push);
+        const ContactForces found = body.find_forces(0., {});
+        std::vector<double> first = found.forces;
+        // a gap that leaves less than a tenth is not reached at once
+        const unsigned int iterations = body.find_forces(1e-6 * max_entry(first), first).iterations;
+        EXPECT_LT(iterations, found.iterations);
+        EXPECT_TRUE(iterations == 0 || push > 1.);
+        first.resize(first.size() / 2); // others have joined
+        const ContactForces again = body.find_forces(0., first);
+        EXPECT_EQ(again.part, 1.);
+        for (std::size_t i = 0; i < found.forces.size(); ++i)
+          EXPECT_NEAR(again.forces[i], found.forces[i], 1e-4 * max_entry(found.forces));
+        for (double &force : body.r) // another problem than the one that they are from
+          force *= -1.;
+        const ContactForces other = body.find_forces(0., {}), there = body.find_forces(0., first);
+        for (std::size_t i = 0; i < other.forces.size(); ++i)
+          EXPECT_NEAR(there.forces[i], other.forces[i], 1e-4 * max_entry(other.forces));
+      }
+    }
+
+    TEST(ContactProblemTest, ItEndsWhereSoMuchOfTheGradientIsLeft)
+    {
+      const SmallContact  body(6, 8, 0.7, 30.);
+      const ContactForces exact  = body.find_forces(0., {});
+      const double        enough = 0.03 * max_entry(exact.forces);
+      const ContactForces found  = body.find_forces(enough, {});
+      EXPECT_LT(found.iterations, exact.iterations);
+      EXPECT_EQ(found.part, 1.);
+      std::vector<double> u = body.respond(body.forces(found.forces));
+      add(u, 1., body.respond(body.r));
+      // a node may have several rows
+      EXPECT_LT(max_entry(body.gradient(u)), 8. * enough);
     }
 
     TEST(ContactProblemTest, MoreGapsThanUnknownsAreNoTrouble)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/solvers/contact_columns.h>
 #include <exemplar/solvers/rotated_metric.h>
 
 #include "body.h"
@@ -7,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 
 namespace Exemplar::Testing
 {
@@ -114,6 +117,85 @@ namespace Exemplar::Testing
       metric.rotate_back(there);
       for (std::size_t i = 0; i < vector.size(); ++i)
         EXPECT_NEAR(there[i], vector[i], 1e-5);
+    }
+
+    TEST_F(MetricWithWeights, EntriesBetweenRowsOfGapsAreThoseOfItsSolves)
+    {
+      const FreeDofs                  &free_dofs = p.constraints.free_dofs;
+      std::mt19937                     generator(5);
+      std::normal_distribution<double> normal;
+      const auto                       direction = [&]
+      {
+        dealii::Tensor<1, 3> vector;
+        for (unsigned int c = 0; c < 3; ++c)
+          vector[c] = normal(generator);
+        return vector / vector.norm();
+      };
+      const auto field = [&]
+      {
+        std::vector<double> vector(free_dofs.size());
+        for (double &entry : vector)
+          entry = normal(generator);
+        return vector;
+      };
+      const unsigned int n_nodes = free_dofs.n_dofs() / 3;
+      std::vector<Gap>   gaps(9);
+      for (unsigned int g = 0; g < gaps.size(); ++g)
+      {
+        gaps[g].n_nodes = 1 + g % 3;
+        gaps[g].nodes   = { { 7 * g % n_nodes, (5 * g + 1) % n_nodes, (3 * g + 2) % n_nodes, 0 } };
+        gaps[g].coefficients    = { { 0.5, 0.3, 0.2, 0. } };
+        gaps[g].normal          = direction();
+        gaps[g].friction_normal = direction();
+        gaps[g].stiffness = gaps[g].width = gaps[g].slip_width = 1.;
+        gaps[g].friction                                       = g % 2;
+      }
+      const GapEnergies  rows(gaps);
+      std::vector<float> turned = rotations; // by an angle that grows along the bar
+      for (unsigned int node = 0; node < n_nodes; ++node)
+        for (int c = 0; c < 3; ++c)
+        {
+          const double angle   = 0.01 * node;
+          turned[9 * node + c] = std::cos(angle) * rotations[9 * node + c]
+                                 - std::sin(angle) * rotations[9 * node + 3 + c];
+          turned[9 * node + 3 + c] = std::sin(angle) * rotations[9 * node + c]
+                                     + std::cos(angle) * rotations[9 * node + 3 + c];
+        }
+      metric.rotate(turned);
+      Lbfgs lbfgs(free_dofs.exchange());
+      for (unsigned int pair = 0; pair < 2; ++pair)
+      {
+        std::vector<double> s = field(), y = s;
+        metric.apply(s);
+        ASSERT_TRUE(lbfgs.add_pair(s, y));
+      }
+      const LbfgsCorrection correction
+          = lbfgs.correction([this](std::vector<double> &vector) { metric.apply(vector); });
+      ContactColumns                   columns(free_dofs, metric);
+      const dealii::FullMatrix<double> W     = columns.between_rows(rows, correction);
+      double                           scale = 0.;
+      for (std::size_t r = 0; r < rows.n_rows(); ++r)
+        scale = std::max(scale, W(r, r));
+      for (std::size_t r = 0; r < rows.n_rows(); ++r)
+      {
+        Vector              unit(free_dofs.n_dofs()), there(free_dofs.n_dofs());
+        std::vector<double> by_row(rows.n_rows()), response;
+        by_row[r] = 1.;
+        rows.add_forces(by_row, unit);
+        free_dofs.gather(unit, response);
+        metric.rotate_back(response);
+        lbfgs.before(response);
+        metric.apply(response);
+        lbfgs.after(response);
+        metric.rotate_forth(response);
+        free_dofs.add(1., response, there);
+        const std::vector<double> expected = rows.changes(there);
+        for (std::size_t s = 0; s < rows.n_rows(); ++s)
+        {
+          EXPECT_NEAR(W(s, r), expected[s], 1e-5 * scale); // single precision
+          EXPECT_EQ(W(s, r), W(r, s));
+        }
+      }
     }
 
     TEST_F(MetricWithWeights, IsEmptyWhenItIsCleared)
