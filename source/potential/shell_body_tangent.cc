@@ -17,7 +17,7 @@ namespace Exemplar
       return row * (row + 1) / 2 + column;
     }
 
-    /// The nodes that the strains of a triangle may depend on, whatever is held.
+    /// The nodes that the strains of a triangle may depend on with its unknowns sheared, whatever is held.
     std::vector<unsigned int>
     nodes_of(const ShellMesh &mesh, const ShellTriangle &triangle)
     {
@@ -26,13 +26,28 @@ namespace Exemplar
       {
         if (mesh.kind() == ShellKind::plate)
           nodes.push_back(mesh.slope_node(edge));
-        for (const unsigned int opposite : mesh.edges()[edge].opposite)
-          if (opposite != ShellEdge::none)
-            nodes.push_back(opposite);
+        else
+          for (const unsigned int opposite : mesh.edges()[edge].opposite)
+            if (opposite != ShellEdge::none)
+              nodes.push_back(opposite);
       }
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
       return nodes;
+    }
+    /// Which one of the two triangles of an edge a triangle is.
+    int
+    side_of(const ShellTriangle &triangle, const int edge)
+    {
+      return triangle.signs[edge] > 0. ? 0 : 1;
+    }
+
+    HingeForm<double>
+    times(const double factor, HingeForm<double> form)
+    {
+      for (Vector3<double> &vector : form)
+        vector = times(factor, vector);
+      return form;
     }
   } // namespace
 
@@ -85,6 +100,13 @@ namespace Exemplar
       dofs.push_back(find_dofs(t));
   }
 
+  bool
+  ShellBody::has_node_of_turn(const unsigned int triangle, const int edge, const int node) const
+  {
+    return !strains.turns(triangle)[edge].is_sheared()
+           || node != 3 - side_of(parts.mesh.triangles()[triangle], edge);
+  }
+
   ShellBody::TriangleDofs
   ShellBody::find_dofs(const unsigned int triangle) const
   {
@@ -103,7 +125,13 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
       if (const ShellTurn &turn = strains.turns(triangle)[i]; turn.hinge >= 0)
         for (int k = 0; k < 4; ++k)
-          result.hinges[i][k] = index_of_node(strains.get_hinges()[turn.hinge].nodes[k]);
+        {
+          const unsigned int node = strains.get_hinges()[turn.hinge].nodes[k];
+          if (has_node_of_turn(triangle, i, k))
+            result.hinges[i][k] = index_of_node(node);
+          for (unsigned int c = 0; c < 3; ++c)
+            result.is_beside_held |= parts.free_dofs.free_index(3 * node + c) == FreeDofs::held;
+        }
     for (int i = 0; i < 3; ++i)
       if (const ShellTurn &turn = strains.turns(triangle)[i]; turn.slope >= 0)
       {
@@ -149,9 +177,16 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
     {
       const ShellTurn &turn = strains.turns(t)[i];
-      for (int k = 0; k < 4 && turn.hinge >= 0; ++k)
-        for (int c = 0; c < 3; ++c)
-          add(i, turn.of_hinge * hinges[turn.hinge].gradient[k][c], to.B[dofs[t].hinges[i][k] + c]);
+      if (turn.hinge >= 0)
+      {
+        const HingeForm<double> gradient
+            = turn.is_sheared()
+                  ? strains.hinge_angle(turn.hinge, positions).gradient_of_side(side_of(triangle, i))
+                  : times(turn.of_hinge, strains.hinge_angle(turn.hinge, positions).gradient());
+        for (int k = 0; k < 4; ++k)
+          for (int c = 0; c < 3 && has_node_of_turn(t, i, k); ++c)
+            add(i, gradient[k][c], to.B[dofs[t].hinges[i][k] + c]);
+      }
       if (turn.slope >= 0)
         add(i, turn.of_slope, to.B[dofs[t].slopes[i]]);
     }
@@ -241,18 +276,29 @@ namespace Exemplar
   {
     for (int edge = 0; edge < 3; ++edge)
     {
-      const int hinge = strains.turns(t)[edge].hinge;
-      if (hinge < 0 || strains.get_hinges()[hinge].owner != t)
+      const ShellTurn &turn = strains.turns(t)[edge];
+      if (turn.hinge < 0)
         continue;
-      const auto &at = dofs[t].hinges[edge];
-      for (const HingeProduct<double> &of : strains.hinge_angle(hinge, positions).hessian())
-        for (unsigned int p = 0; p < 12; ++p)
-          for (unsigned int q = 0; q < 12; ++q)
-            if (const unsigned int row = at[p / 3] + p % 3, column = at[q / 3] + q % 3;
-                row >= column)
-              to.entries[lower(row, column)] += hinges[hinge].moment * of.factor
-                                                * (of.a[p / 3][p % 3] * of.b[q / 3][q % 3]
-                                                   + of.b[p / 3][p % 3] * of.a[q / 3][q % 3]);
+      const double             moment = hinges[turn.hinge].moment;
+      const HingeAngle<double> angle  = strains.hinge_angle(turn.hinge, positions);
+      const auto               add    = [&](const HingeProduct<double> &of)
+      {
+        for (int i = 0; i < 4; ++i)
+          for (int j = 0; j < 4 && has_node_of_turn(t, edge, i); ++j)
+            for (int k = 0; k < 9 && has_node_of_turn(t, edge, j); ++k)
+              if (const unsigned int row    = dofs[t].hinges[edge][i] + k / 3,
+                  column                    = dofs[t].hinges[edge][j] + k % 3;
+                  row >= column)
+                to.entries[lower(row, column)] += moment * of.factor
+                                                  * (of.a[i][k / 3] * of.b[j][k % 3]
+                                                     + of.b[i][k / 3] * of.a[j][k % 3]);
+      };
+      if (turn.is_sheared())
+        for (const auto &of : angle.hessian_of_side(side_of(parts.mesh.triangles()[t], edge)))
+          add(of);
+      else if (strains.get_hinges()[turn.hinge].owner == t)
+        for (const auto &of : angle.hessian())
+          add(of);
     }
   }
 
@@ -329,9 +375,60 @@ namespace Exemplar
           add_columns(first + i, tangents[i], columns);
       }
     }
+    UnknownShear shear;
+    find_shear(positions, shear);
+    const std::size_t n_rows = parts.free_dofs.local_list().size();
+    for (std::size_t begin = 0; begin < columns.size(); begin += n_rows)
+      shear.forces_from_sheared(columns.data() + begin);
     if (!volumes.empty())
       volumes.add_tangent(kind, positions, weights, *pattern, parts.free_dofs, matrix_values,
                           columns, *products);
+  }
+
+  template <typename IndexOf>
+  UnknownShear
+  ShellBody::shear_by(const Vector &positions, const IndexOf &index_of) const
+  {
+    UnknownShear shear;
+    for (std::size_t h = 0; h < strains.get_hinges().size() && parts.mesh.n_slopes() > 0; ++h)
+    {
+      const ShellHinge &hinge = strains.get_hinges()[h];
+      if (hinge.kind != 0)
+        continue; // of a slope that is held
+      const HingeAngle<double> angle  = strains.hinge_angle(h, positions);
+      const HingeForm<double>  first  = angle.gradient_of_side(0),
+                              second = angle.gradient_of_side(1);
+      const double half_length = 0.5 * parts.mesh.edges()[hinge.edge].length;
+      for (int i = 0; i < 4; ++i)
+        for (int c = 0; c < 3; ++c)
+          if (const int other = index_of(3 * hinge.nodes[i] + c); other != FreeDofs::held)
+          {
+            shear.others.push_back(other);
+            shear.factors.push_back(half_length * (second[i][c] - first[i][c]));
+          }
+      shear.sheared.push_back(index_of(3 * parts.mesh.slope_node(hinge.edge)));
+      shear.ends.push_back(shear.others.size());
+    }
+    return shear;
+  }
+
+  void
+  ShellBody::find_shear(const Vector &positions, UnknownShear &shear) const
+  {
+    shear = shear_by(positions,
+                     [&](const unsigned int dof) { return parts.free_dofs.free_index(dof); });
+  }
+
+  void
+  ShellBody::add_product(const unsigned int     t,
+                         const TriangleTangent &tangent,
+                         const Vector          &displacement,
+                         Vector                &gradient) const
+  {
+    for (unsigned int p = 0; p < dofs[t].n; ++p)
+      for (unsigned int q = 0; q < dofs[t].n; ++q)
+        gradient[dofs[t].dofs[q]] += tangent.entries[lower(std::max(p, q), std::min(p, q))]
+                                     * displacement[dofs[t].dofs[p]];
   }
 
   void
@@ -343,7 +440,10 @@ namespace Exemplar
   {
     find_strains(positions, RotationUse::keep);
     find_stresses(weights);
-    Vector              gradient(positions.size());
+    const UnknownShear shear
+        = shear_by(positions, [](const unsigned int dof) { return static_cast<int>(dof); });
+    Vector moved = displacement, gradient(positions.size());
+    shear.to_sheared(moved.begin());
     std::vector<double> by_weights(result.weight_gradient.size(), 0.);
     TriangleTangent     tangent;
     for (unsigned int t = 0; t < triangles.size(); ++t)
@@ -351,19 +451,15 @@ namespace Exemplar
       if (!dofs[t].is_beside_held)
         continue;
       find_tangent(t, kind, positions, tangent);
+      add_product(t, tangent, moved, gradient);
       ShellStrain stress{};
       for (unsigned int p = 0; p < dofs[t].n; ++p)
-      {
-        const double moved = displacement[dofs[t].dofs[p]];
         for (int k = 0; k < 6; ++k)
-          stress[k] += moved * tangent.CB[p][k];
-        for (unsigned int q = 0; q < dofs[t].n; ++q)
-          gradient[dofs[t].dofs[q]]
-              += tangent.entries[lower(std::max(p, q), std::min(p, q))] * moved;
-      }
+          stress[k] += moved[dofs[t].dofs[p]] * tangent.CB[p][k];
       if (!by_weights.empty())
         add_weight_products(t, stress, -1., by_weights);
     }
+    shear.forces_from_sheared(gradient.begin());
     volumes.add_response(kind, displacement, positions, weights, gradient, by_weights);
     const Exchange &exchange = parts.fe_space.exchange();
     exchange.assemble(gradient.begin(), 3);
@@ -381,14 +477,17 @@ namespace Exemplar
   {
     find_strains(positions, RotationUse::keep);
     find_stresses(weights);
+    const UnknownShear shear
+        = shear_by(positions, [](const unsigned int dof) { return static_cast<int>(dof); });
+    Vector moved = displacement, response(positions.size());
+    shear.to_sheared(moved.begin());
     TriangleTangent tangent;
     for (unsigned int t = 0; t < triangles.size(); ++t)
     {
       find_tangent(t, Tangent::exact, positions, tangent);
-      for (unsigned int p = 0; p < dofs[t].n; ++p)
-        for (unsigned int q = 0; q < dofs[t].n; ++q)
-          gradient[dofs[t].dofs[q]] += tangent.entries[lower(std::max(p, q), std::min(p, q))]
-                                       * displacement[dofs[t].dofs[p]];
+      add_product(t, tangent, moved, response);
     }
+    shear.forces_from_sheared(response.begin());
+    gradient += response;
   }
 } // namespace Exemplar

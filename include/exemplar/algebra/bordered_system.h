@@ -63,6 +63,13 @@ namespace Exemplar
       return nullptr;
     }
 
+    /// The shear of the unknowns, as SpdOperator::shear(). Columns and vectors are by the unknowns of A.
+    virtual UnknownShear *
+    shear()
+    {
+      return nullptr;
+    }
+
     /// The non-zero columns of G, one after the other, to be overwritten before factorize() and not
     /// changed until the next one.
     std::vector<double> &

@@ -85,6 +85,14 @@ namespace Exemplar
     double of_hinge = 0.;
     int    slope    = -1; ///< degree of freedom; -1: none
     double of_slope = 0.; ///< [1/m]
+
+    /// Whether it is by both: then with the turn of the normal in space as the unknown, instead of the slope, it depends on the
+    /// triangle's own vertices alone, of which it has the whole angle. See UnknownShear.
+    bool
+    is_sheared() const
+    {
+      return hinge >= 0 && slope >= 0;
+    }
   };
 
   /// An edge of a triangle as it is.

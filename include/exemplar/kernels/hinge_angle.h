@@ -85,26 +85,43 @@ namespace Exemplar
     HingeForm<Number>
     gradient() const
     {
-      // n/h at each side, and the part of an apex in its foot at x1; without a root, as it is found in each iteration
-      const Vector3<Number> rho_a = times(length / dot(normal_a, normal_a), normal_a),
-                            rho_b = times(length / dot(normal_b, normal_b), normal_b);
-      const Number per_square     = Number(1.) / square;
-      const Number s = per_square * dot(a, edge), t = per_square * dot(b, edge);
-      return { { combine(Number(1.) - s, rho_a, Number(1.) - t, rho_b), combine(s, rho_a, t, rho_b),
-                 times(Number(-1.), rho_a), times(Number(-1.), rho_b) } };
+      const HingeForm<Number> a = gradient_of_side(0), b = gradient_of_side(1);
+      HingeForm<Number>       sum;
+      for (int i = 0; i < 4; ++i)
+        sum[i] = combine(Number(1.), a[i], Number(1.), b[i]);
+      return sum;
     }
 
-    /// Its second derivative, the sum of four products. At each side the angle accelerates by
-    /// -2 rho y + 2 tau (z - kappa/2) when nodes have velocities v and no acceleration: with
-    /// (rho, y, z) = (n, t, e).w/h and (tau, kappa) = (n, t).(v1 - v0)/l.
+    /// What triangle (x0, x1, x2) gives to that, or (x1, x0, x3): the turn of its normal about the edge, against that of the other one.
+    HingeForm<Number>
+    gradient_of_side(const int side) const
+    {
+      // n/h, and the part of the apex in its foot at x1; without a root, as it is found in each iteration
+      const Vector3<Number> &normal = side == 0 ? normal_a : normal_b;
+      const Vector3<Number>  rho    = times(length / dot(normal, normal), normal);
+      const Number           s      = dot(side == 0 ? a : b, edge) / square;
+      HingeForm<Number>      form{ { times(Number(1.) - s, rho), times(s, rho), {}, {} } };
+      form[2 + side]                = times(Number(-1.), rho);
+      return form;
+    }
+
+    /// The second derivative, the sum of two products for each side.
     std::array<HingeProduct<Number>, 4>
     hessian() const
     {
-      const auto of_first               = products({ x[0], x[1], x[2] }),
-                 of_second              = products({ x[1], x[0], x[3] });
-      const std::array<int, 3> at_first = { { 0, 1, 2 } }, at_second = { { 1, 0, 3 } };
-      return { { placed(of_first[0], at_first), placed(of_first[1], at_first),
-                 placed(of_second[0], at_second), placed(of_second[1], at_second) } };
+      const auto first = hessian_of_side(0), second = hessian_of_side(1);
+      return { { first[0], first[1], second[0], second[1] } };
+    }
+
+    /// The derivative of gradient_of_side(). At each side the angle accelerates by
+    /// -2 rho y + 2 tau (z - kappa/2) when nodes have velocities v and no acceleration: with
+    /// (rho, y, z) = (n, t, e).w/h and (tau, kappa) = (n, t).(v1 - v0)/l.
+    std::array<HingeProduct<Number>, 2>
+    hessian_of_side(const int side) const
+    {
+      const std::array<int, 3> at       = { { side, 1 - side, 2 + side } };
+      const auto               products = products_of({ x[at[0]], x[at[1]], x[at[2]] });
+      return { { placed(products[0], at), placed(products[1], at) } };
     }
 
   private:
@@ -118,7 +135,7 @@ namespace Exemplar
     };
 
     static std::array<SideProduct, 2>
-    products(const HingeSide<Number> &side)
+    products_of(const HingeSide<Number> &side)
     {
       const Number          per_length = Number(1.) / side.length;
       const Vector3<Number> tau        = times(per_length, side.n);

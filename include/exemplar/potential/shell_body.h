@@ -55,6 +55,17 @@ namespace Exemplar
       return !volumes.empty();
     }
 
+    bool
+    shears_unknowns() const override
+    {
+      return parts.mesh.n_slopes() > 0;
+    }
+
+    /// The matrix is by the turns of mid-edge normals in space, not out of bisectors as slopes are: so it couples the vertices
+    /// and edges of each triangle, and none beyond.
+    void
+    find_shear(const Vector &positions, UnknownShear &shear) const override;
+
     void
     attach(const SymmetricPattern &pattern) override;
 
@@ -172,12 +183,12 @@ namespace Exemplar
     memory_consumption() const override;
 
   private:
-    /// Three vertices, up to three more nodes of hinges, and up to three slopes.
-    static constexpr unsigned int max_dofs = 21;
+    /// Three vertices, and a slope or a node more for each edge.
+    static constexpr unsigned int max_dofs = 18;
 
     static constexpr unsigned int max_entries = max_dofs * (max_dofs + 1) / 2;
 
-    /// The degrees of freedom that the strains of a triangle depend on.
+    /// The degrees of freedom that the strains of a triangle depend on, with the unknowns sheared.
     struct TriangleDofs
     {
       unsigned int                       n = 0;
@@ -185,7 +196,7 @@ namespace Exemplar
       std::array<std::array<unsigned int, 4>, 3>
                                    hinges{}; ///< index of the first one of each node, by edge
       std::array<unsigned int, 3>  slopes{}; ///< their indices, by edge
-      bool                         is_beside_held = false;
+      bool                         is_beside_held = false; ///< or its turns' hinges are
       std::array<int, max_entries> positions{}; ///< of the lower triangle by rows; -1: held
     };
 
@@ -218,6 +229,22 @@ namespace Exemplar
 
     TriangleDofs
     find_dofs(unsigned int triangle) const;
+
+    /// Whether the turn at an edge depends on a node of its hinge, with the unknowns sheared.
+    bool
+    has_node_of_turn(unsigned int triangle, int edge, int node) const;
+
+    /// find_shear(), by index_of(degree of freedom).
+    template <typename IndexOf>
+    UnknownShear
+    shear_by(const Vector &positions, const IndexOf &index_of) const;
+
+    /// Add the product of a triangle's matrix.
+    void
+    add_product(unsigned int           triangle,
+                const TriangleTangent &tangent,
+                const Vector          &displacement,
+                Vector                &gradient) const;
 
     /// Find hinges and strains.
     void

@@ -57,7 +57,7 @@ namespace Exemplar::Testing
     small_displacements(ShellScene &scene, const Vector &load)
     {
       return scene.solve(
-          scene.assemble(Tangent::exact, rest_positions(scene.body->get_strains()), {}).values,
+          scene.assemble(Tangent::exact, rest_positions(scene.body->get_strains()), {}),
           load);
     }
 
@@ -150,11 +150,11 @@ namespace Exemplar::Testing
         Vector step;
         try
         {
-          step = scene.solve(scene.assemble(Tangent::exact, x, {}).values, at.gradient);
+          step = scene.solve(scene.assemble(Tangent::exact, x, {}), at.gradient);
         }
         catch (const SolverFailure &)
         {
-          step = scene.solve(scene.assemble(Tangent::convex, x, {}).values, at.gradient);
+          step = scene.solve(scene.assemble(Tangent::convex, x, {}), at.gradient);
         }
         if (step.linfty_norm() < 1e-10)
           return x;
