@@ -94,7 +94,8 @@ namespace Exemplar
     for (unsigned int edge = 0; edge < mesh.n_slopes(); ++edge)
       held[edge] = parts.free_dofs.free_index(3 * mesh.slope_node(edge)) == FreeDofs::held;
     strains.set_held(held);
-    hinges.resize(strains.get_hinges().size());
+    write_hinges();
+    write_triangles();
     dofs.clear();
     for (unsigned int t = 0; t < mesh.triangles().size(); ++t)
       dofs.push_back(find_dofs(t));
@@ -152,9 +153,10 @@ namespace Exemplar
   }
 
   void
-  ShellBody::find_strain_slopes(const unsigned int t,
-                                const Vector      &positions,
-                                TriangleTangent   &to) const
+  ShellBody::find_strain_slopes(const unsigned int            t,
+                                const TriangleStrain<double> &at,
+                                const Vector                 &positions,
+                                TriangleTangent              &to) const
   {
     const ShellTriangle &triangle = parts.mesh.triangles()[t];
     to.B.fill({});
@@ -163,12 +165,12 @@ namespace Exemplar
       Vector3<double> unit{};
       unit[p % 3]   = 1.;
       const auto &g = triangle.gradients[p / 3];
-      to.changes[p] = triangles[t].membrane.change(unit, g[0], g[1]);
+      to.changes[p] = at.membrane().change(unit, g[0], g[1]);
       for (int k = 0; k < 3; ++k)
         to.B[p][k] = to.changes[p].dU[k];
     }
     if (parts.mesh.kind() == ShellKind::hinges)
-      find_stretch_slopes(t, positions, to);
+      find_stretch_slopes(at, triangle, to);
     const auto add = [&](const int edge, const double turn, ShellStrain &strain)
     {
       for (int k = 0; k < 3; ++k)
@@ -195,34 +197,34 @@ namespace Exemplar
   }
 
   void
-  ShellBody::find_stretch_slopes(const unsigned int t,
-                                 const Vector      &positions,
-                                 TriangleTangent   &to) const
+  ShellBody::find_stretch_slopes(const TriangleStrain<double> &at,
+                                 const ShellTriangle          &triangle,
+                                 TriangleTangent              &to) const
   {
     for (unsigned int i = 0; i < 3; ++i)
     {
-      const Vector3<double> direction = strains.stretch(t, i, positions).direction;
-      const double          rest = parts.mesh.edges()[parts.mesh.triangles()[t].edges[i]].length;
+      const Vector3<double> direction = at.stretch(i).direction;
       for (unsigned int node = 0; node < 3; ++node)
         for (unsigned int c = 0; c < 3; ++c)
-          to.B[3 * node + c][i] = node == i             ? -direction[c] / rest
-                                  : node == (i + 1) % 3 ? direction[c] / rest
+          to.B[3 * node + c][i] = node == i             ? -direction[c] / triangle.lengths[i]
+                                  : node == (i + 1) % 3 ? direction[c] / triangle.lengths[i]
                                                         : 0.;
     }
   }
 
   void
-  ShellBody::add_stretch_geometry(const unsigned int t,
-                                  const bool         convex,
-                                  const Vector      &positions,
-                                  TriangleTangent   &to) const
+  ShellBody::add_stretch_geometry(const unsigned int            t,
+                                  const TriangleStrain<double> &at,
+                                  const bool                    convex,
+                                  TriangleTangent              &to) const
   {
     const ShellTriangle &triangle = parts.mesh.triangles()[t];
+    const ShellStrain    T        = driven_stress(t);
     for (unsigned int i = 0; i < 3; ++i)
     {
-      const ShellStretch stretch = strains.stretch(t, i, positions);
-      const double       factor  = (i == 2 ? 2. : 1.) * triangle.volume() * triangles[t].driven[i]
-                            / (parts.mesh.edges()[triangle.edges[i]].length * stretch.length);
+      const EdgeStretch<double> stretch = at.stretch(i);
+      const double              factor
+          = (i == 2 ? 2. : 1.) * triangle.volume() * T[i] / (triangle.lengths[i] * stretch.length);
       if (convex && factor < 0.)
         continue;
       const unsigned int begin = 3 * i, end = 3 * ((i + 1) % 3);
@@ -242,13 +244,14 @@ namespace Exemplar
   }
 
   void
-  ShellBody::add_membrane_geometry(const unsigned int t,
-                                   const bool         convex,
-                                   TriangleTangent   &to) const
+  ShellBody::add_membrane_geometry(const unsigned int            t,
+                                   const TriangleStrain<double> &at,
+                                   const bool                    convex,
+                                   TriangleTangent              &to) const
   {
     const ShellTriangle           &triangle = parts.mesh.triangles()[t];
-    const MembraneStrain<double>  &membrane = triangles[t].membrane;
-    const ShellStrain             &T        = triangles[t].driven;
+    const MembraneStrain<double>  &membrane = at.membrane();
+    const ShellStrain              T        = driven_stress(t);
     const double                   volume   = triangle.volume();
     const MembraneGeometry<double> geometry
         = membrane.geometry({ { volume * T[0], volume * T[1], volume * T[2] } }, convex);
@@ -279,7 +282,7 @@ namespace Exemplar
       const ShellTurn &turn = strains.turns(t)[edge];
       if (turn.hinge < 0)
         continue;
-      const double             moment = hinges[turn.hinge].moment;
+      const double             moment = moments[turn.hinge];
       const HingeAngle<double> angle  = strains.hinge_angle(turn.hinge, positions);
       const auto               add    = [&](const HingeProduct<double> &of)
       {
@@ -310,14 +313,15 @@ namespace Exemplar
   {
     const bool   convex = kind == Tangent::convex;
     const double factor = (1. + damping) * parts.mesh.triangles()[t].volume();
-    find_strain_slopes(t, positions, to);
+    const TriangleStrain<double> at = strains.triangle(t, positions);
+    find_strain_slopes(t, at, positions, to);
     for (unsigned int p = 0; p < dofs[t].n; ++p)
       for (unsigned int q = 0; q <= p; ++q)
         to.entries[lower(p, q)] = factor * contract(to.CB[p], to.B[q]);
     if (parts.mesh.kind() == ShellKind::hinges)
-      add_stretch_geometry(t, convex, positions, to);
+      add_stretch_geometry(t, at, convex, to);
     else
-      add_membrane_geometry(t, convex, to);
+      add_membrane_geometry(t, at, convex, to);
     if (!convex) // what moments have that is positive makes steps shorter, and twice as many
       add_hinge_geometry(t, positions, to);
   }
@@ -351,14 +355,14 @@ namespace Exemplar
   {
     constexpr std::size_t at_once = 256;
     find_strains(positions, RotationUse::keep);
-    find_stresses(weights);
+    find_stresses(positions, weights);
     columns.clear();
     if (parts.weights.n_unknown() > 0)
       columns.assign(parts.free_dofs.local_list().size() * parts.examples.n_strained_weights(), 0.);
-    std::vector<TriangleTangent> tangents(std::min(at_once, triangles.size()));
-    for (std::size_t first = 0; first < triangles.size(); first += at_once)
+    std::vector<TriangleTangent> tangents(std::min(at_once, dofs.size()));
+    for (std::size_t first = 0; first < dofs.size(); first += at_once)
     {
-      const std::size_t n = std::min(at_once, triangles.size() - first);
+      const std::size_t n = std::min(at_once, dofs.size() - first);
       for_each_part(parts.n_threads, n, parts.n_threads,
                     [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
                     {
@@ -439,14 +443,14 @@ namespace Exemplar
                           ElasticEvaluation         &result)
   {
     find_strains(positions, RotationUse::keep);
-    find_stresses(weights);
+    find_stresses(positions, weights);
     const UnknownShear shear
         = shear_by(positions, [](const unsigned int dof) { return static_cast<int>(dof); });
     Vector moved = displacement, gradient(positions.size());
     shear.to_sheared(moved.begin());
     std::vector<double> by_weights(result.weight_gradient.size(), 0.);
     TriangleTangent     tangent;
-    for (unsigned int t = 0; t < triangles.size(); ++t)
+    for (unsigned int t = 0; t < dofs.size(); ++t)
     {
       if (!dofs[t].is_beside_held)
         continue;
@@ -476,13 +480,13 @@ namespace Exemplar
                                 Vector                    &gradient)
   {
     find_strains(positions, RotationUse::keep);
-    find_stresses(weights);
+    find_stresses(positions, weights);
     const UnknownShear shear
         = shear_by(positions, [](const unsigned int dof) { return static_cast<int>(dof); });
     Vector moved = displacement, response(positions.size());
     shear.to_sheared(moved.begin());
     TriangleTangent tangent;
-    for (unsigned int t = 0; t < triangles.size(); ++t)
+    for (unsigned int t = 0; t < dofs.size(); ++t)
     {
       find_tangent(t, Tangent::exact, positions, tangent);
       add_product(t, tangent, moved, response);

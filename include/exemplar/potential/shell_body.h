@@ -7,6 +7,7 @@
 #include <exemplar/body/material.h>
 #include <exemplar/body/shell_strains.h>
 #include <exemplar/body/target_block.h>
+#include <exemplar/kernels/shell_kernels.h>
 #include <exemplar/potential/elastic_body.h>
 #include <exemplar/potential/volume_resistance.h>
 
@@ -95,18 +96,17 @@ namespace Exemplar
       return false;
     }
 
+    /// The branches of angles, which are memory, too: ShellStrains::branches().
     std::vector<double>
     initial_history() const override
     {
-      return {};
+      return ShellStrains(parts.mesh).branches();
     }
 
     void
-    set_history(const std::vector<double> & /*history*/) override
-    {
-    }
+    set_history(const std::vector<double> &history) override;
 
-    /// Nothing, but angles are on the branch of these positions from now on.
+    /// Angles are on the branch of these positions from now on.
     std::vector<double>
     advance_history(const Vector &positions) override;
 
@@ -200,22 +200,12 @@ namespace Exemplar
       std::array<int, max_entries> positions{}; ///< of the lower triangle by rows; -1: held
     };
 
-    /// A hinge at the positions of find_strains().
-    struct HingeState
+    /// What the loops read of hinges and triangles and what they find, as HingeTask and TriangleTask say.
+    struct Arrays
     {
-      HingeForm<double> gradient;
-      double            moment       = 0.; ///< of both triangles [N m]
-      double            moment_scale = 0.;
-    };
-
-    /// A triangle at these, and its stresses of find_stresses().
-    struct TriangleState
-    {
-      MembraneStrain<double> membrane = { { { 1., 0., 0. } }, { { 0., 1., 0. } } };
-      ShellStrain            strain;
-      ShellStrain            target; ///< D
-      ShellStrain            stress; ///< C:(e - D)
-      ShellStrain            driven; ///< the stress with that of damping
+      std::vector<unsigned int>     hinge_nodes, nodes, hinges, slopes;
+      dealii::AlignedVector<double> rest_angles, last_angles, changes, forms, lengths;
+      dealii::AlignedVector<double> rest, past, strains, targets, areas, frames, found, products;
     };
 
     /// What a triangle adds to a matrix: the derivatives of its strains by its degrees of freedom,
@@ -246,35 +236,61 @@ namespace Exemplar
                 const Vector          &displacement,
                 Vector                &gradient) const;
 
+    /// Write what the loops read of the shell at rest: where hinges are others.
+    void
+    write_hinges();
+
+    /// The same of the constants of triangles.
+    void
+    write_triangles();
+
+    /// Let the loops know on which branch angles are.
+    void
+    write_branches();
+
+    TriangleTask
+    triangle_task(const Vector &positions, const std::vector<double> *weights, bool with_frames);
+
+    /// Call loop(begin, end) for the batches of n things, in several threads.
+    template <typename Loop>
+    void
+    for_each_batch(std::size_t n, const Loop &loop) const;
+
     /// Find hinges and strains.
     void
     find_strains(const Vector &positions, RotationUse rotations);
 
-    /// Find what follows from strains and weights: stresses, and the moments of hinges.
+    /// Find what follows from strains and weights: energies, forces, and the moments of hinges.
     void
-    find_stresses(const std::vector<double> &weights);
+    find_stresses(const Vector &positions, const std::vector<double> &weights);
 
-    /// The moment of the stress at each edge of a triangle [N m].
-    std::array<double, 3>
-    moments(const ShellTriangle &triangle, const ShellStrain &stress) const;
+    /// One of TriangleResult.
+    double
+    found(const unsigned int triangle, const std::size_t number) const
+    {
+      return arrays.found[batch_index(triangle, TriangleResult::size, number)];
+    }
+
+    /// Six numbers of a triangle.
+    static ShellStrain
+    numbers_of(const dealii::AlignedVector<double> &of, unsigned int triangle);
+
+    /// C:(e - D) with that of damping.
+    ShellStrain
+    driven_stress(unsigned int triangle) const;
 
     void
-    add_energies(unsigned int triangle, ElasticSums &sums) const;
+    add_energies(ElasticSums &sums) const;
 
-    /// The forces at the vertices of a triangle of the first three stresses, over its volume.
-    std::array<Vector3<double>, 3>
-    membrane_forces(unsigned int triangle, const Vector &positions) const;
-
-    /// Add the forces at the vertices of the membrane's stress and those at slopes, and add to the scales
-    /// of the hinges' moments.
+    /// Add the forces at vertices and slopes, and those of hinges.
     void
-    add_forces(unsigned int triangle, const Vector &positions, ElasticSums &sums);
+    add_forces(ElasticSums &sums);
 
-    /// Add those of the hinges' moments.
+    /// Add factor times the product of the strains' stress, or of that beyond the targets, with what each weight asks for.
     void
-    add_hinge_forces(ElasticSums &sums) const;
+    add_weight_products(bool of_strain_alone, double factor, std::vector<double> &sums);
 
-    /// Add factor times the product of a stress in a triangle with what each weight asks for.
+    /// Add that for a stress in a triangle.
     void
     add_weight_products(unsigned int         triangle,
                         const ShellStrain   &stress,
@@ -291,19 +307,27 @@ namespace Exemplar
                  TriangleTangent &to) const;
 
     void
-    find_strain_slopes(unsigned int triangle, const Vector &positions, TriangleTangent &to) const;
+    find_strain_slopes(unsigned int                  triangle,
+                       const TriangleStrain<double> &at,
+                       const Vector                 &positions,
+                       TriangleTangent              &to) const;
 
     void
-    find_stretch_slopes(unsigned int triangle, const Vector &positions, TriangleTangent &to) const;
+    find_stretch_slopes(const TriangleStrain<double> &at,
+                        const ShellTriangle          &triangle,
+                        TriangleTangent              &to) const;
 
     void
-    add_stretch_geometry(unsigned int     triangle,
-                         bool             convex,
-                         const Vector    &positions,
-                         TriangleTangent &to) const;
+    add_stretch_geometry(unsigned int                  triangle,
+                         const TriangleStrain<double> &at,
+                         bool                          convex,
+                         TriangleTangent              &to) const;
 
     void
-    add_membrane_geometry(unsigned int triangle, bool convex, TriangleTangent &to) const;
+    add_membrane_geometry(unsigned int                  triangle,
+                          const TriangleStrain<double> &at,
+                          bool                          convex,
+                          TriangleTangent              &to) const;
 
     void
     add_hinge_geometry(unsigned int triangle, const Vector &positions, TriangleTangent &to) const;
@@ -316,6 +340,10 @@ namespace Exemplar
     void
     estimate_rounding();
 
+    /// In bytes.
+    std::size_t
+    memory_of_arrays() const;
+
     const ShellParts                            parts;
     ShellStrains                                strains;
     VolumeResistance                            volumes;
@@ -323,10 +351,10 @@ namespace Exemplar
     const SymmetricPattern                     *pattern = nullptr; ///< since attach()
     std::vector<TriangleDofs>                   dofs;              ///< since attach()
     double                                      damping = 0.;      ///< s
-    std::vector<ShellStrain>                    past_strains;      ///< e*; with damping alone
-    std::vector<HingeState>                     hinges;
-    std::vector<TriangleState>                  triangles;
-    std::vector<std::array<Vector3<double>, 3>> frames; ///< turned axes of the triangles
+    Arrays                                      arrays;
+    std::vector<std::array<double, 6>>
+        scales_at_rest; ///< of triangles: |gradients| [1/m], then |bending| [-]
+    std::vector<double> moments, moment_scales; ///< of hinges, since find_stresses() and add_forces() [N m]
     double rest_size          = 0.;                     ///< the greatest coordinate at rest [m]
     double force_of_rounding  = 0.;                     ///< greatest of a node [N]
     double stress_of_rounding = 0.;                     ///< (sum V T^2)^(1/2)
