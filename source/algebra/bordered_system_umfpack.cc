@@ -68,8 +68,8 @@ namespace Exemplar
       {
         Vector all(sparse.m());
         of_unknowns.forces_to_sheared(vector.positions.data());
-        auto   next = std::copy(vector.positions.begin(), vector.positions.end(), all.begin());
-        next        = std::copy(vector.weights.begin(), vector.weights.end(), next);
+        auto next = std::copy(vector.positions.begin(), vector.positions.end(), all.begin());
+        next      = std::copy(vector.weights.begin(), vector.weights.end(), next);
         std::copy(vector.multipliers.begin(), vector.multipliers.end(), next);
         umfpack.solve(all);
         const auto first_weight     = all.begin() + vector.positions.size();

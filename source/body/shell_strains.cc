@@ -199,7 +199,8 @@ namespace Exemplar
     for (unsigned int i = 0; i < hinges.size(); ++i)
       last_angles[hinges[i].edge][hinges[i].kind]
           = hinges[i].rest + change(i, hinge_angle(i, positions));
-    for (unsigned int edge = 0; edge < mesh.n_slopes(); ++edge) // those that are no hinges now, but may be later
+    for (unsigned int edge = 0; edge < mesh.n_slopes();
+         ++edge) // those that are no hinges now, but may be later
     {
       auto &angles = last_angles[edge];
       if (held[edge])

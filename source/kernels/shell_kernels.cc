@@ -19,15 +19,15 @@ namespace Exemplar
       switch (built_instruction_set())
       {
 #ifdef EXEMPLAR_HAS_AVX512
-        case InstructionSet::avx512:
-          return shell_kernels_avx512();
+      case InstructionSet::avx512:
+        return shell_kernels_avx512();
 #endif
 #ifdef EXEMPLAR_HAS_AVX2
-        case InstructionSet::avx2:
-          return shell_kernels_avx2();
+      case InstructionSet::avx2:
+        return shell_kernels_avx2();
 #endif
-        default:
-          return shell_kernels_baseline();
+      default:
+        return shell_kernels_baseline();
       }
     }();
     return kernels;

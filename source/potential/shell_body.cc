@@ -217,12 +217,11 @@ namespace Exemplar
   ShellBody::find_strains(const Vector &positions, const RotationUse rotations)
   {
     volumes.find_changes(positions);
-    const HingeTask of_hinges{ positions.begin(),          arrays.hinge_nodes.data(),
-                               arrays.rest_angles.data(),  arrays.last_angles.data(),
-                               arrays.changes.data(),      arrays.forms.data(),
+    const HingeTask of_hinges{ positions.begin(),         arrays.hinge_nodes.data(),
+                               arrays.rest_angles.data(), arrays.last_angles.data(),
+                               arrays.changes.data(),     arrays.forms.data(),
                                arrays.lengths.data() };
-    for_each_batch(strains.get_hinges().size(),
-                   [&](const std::size_t begin, const std::size_t end)
+    for_each_batch(strains.get_hinges().size(), [&](const std::size_t begin, const std::size_t end)
                    { shell_kernels().find_hinges(of_hinges, begin, end); });
     const TriangleTask task = triangle_task(positions, nullptr, rotations != RotationUse::keep);
     for_each_batch(task.n, [&](const std::size_t begin, const std::size_t end)
@@ -289,7 +288,8 @@ namespace Exemplar
     for (unsigned int t = 0; t < parts.mesh.triangles().size(); ++t)
     {
       const ShellTriangle &triangle = parts.mesh.triangles()[t];
-      const double         scale = found(t, TriangleResult::scale), of_bending = found(t, TriangleResult::bending_scale);
+      const double         scale    = found(t, TriangleResult::scale),
+                   of_bending       = found(t, TriangleResult::bending_scale);
       for (unsigned int i = 0; i < 3; ++i)
       {
         const unsigned int node = triangle.nodes[i];
@@ -311,8 +311,7 @@ namespace Exemplar
       {
         const unsigned int node = strains.get_hinges()[h].nodes[i];
         for (unsigned int c = 0; c < 3; ++c)
-          sums->gradient[3 * node + c]
-              += moments[h] * arrays.forms[batch_index(h, 12, 3 * i + c)];
+          sums->gradient[3 * node + c] += moments[h] * arrays.forms[batch_index(h, 12, 3 * i + c)];
         sums->force_scale[node] += moment_scales[h] * arrays.lengths[batch_index(h, 4, i)];
       }
   }
@@ -355,14 +354,12 @@ namespace Exemplar
     const std::size_t n = parts.targets.arrays().n;
     arrays.products.resize(batched_size(parts.mesh.triangles().size(), n));
     const TriangleTask task = triangle_task({}, nullptr, false);
-    for_each_batch(task.n,
-                   [&](const std::size_t begin, const std::size_t end)
+    for_each_batch(task.n, [&](const std::size_t begin, const std::size_t end)
                    { shell_kernels().find_products(task, of_strain_alone, begin, end); });
     for (unsigned int t = 0; t < task.n; ++t)
       parts.targets.for_each_weight(
           t,
-          [&](const unsigned int weight, const unsigned int i, const double share)
-          {
+          [&](const unsigned int weight, const unsigned int i, const double share) {
             sums[weight]
                 += factor * share * arrays.products[batch_index(t, n, i - task.examples.first)];
           });
@@ -412,14 +409,14 @@ namespace Exemplar
     {
       const ShellStrain strain = numbers_of(arrays.strains, t),
                         target = numbers_of(arrays.targets, t);
-      ShellStrain       beyond;
+      ShellStrain beyond;
       for (unsigned int k = 0; k < n_shell_strains; ++k)
         beyond[k] = strain[k] - target[k];
-      const ShellStrain T = elasticities[t].stress(beyond);
-      const auto           face  = [&](const double z)
+      const ShellStrain T    = elasticities[t].stress(beyond);
+      const auto        face = [&](const double z)
       { return von_mises(T[0] + z * T[3], T[1] + z * T[4], T[2] + z * T[5]); };
-      results.strain_energy_density.push_back(
-          0.5 * contract(elasticities[t].stress(strain), strain));
+      results.strain_energy_density.push_back(0.5
+                                              * contract(elasticities[t].stress(strain), strain));
       results.det_F.push_back(arrays.areas[t]);
       if (parts.mesh.kind() == ShellKind::plate)
         results.von_mises_stress.push_back(std::max(face(outside), face(-outside)));

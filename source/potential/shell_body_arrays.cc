@@ -31,7 +31,8 @@ namespace Exemplar
   ShellBody::write_hinges()
   {
     const std::vector<ShellHinge> &hinges = strains.get_hinges();
-    const std::size_t n = std::max<std::size_t>(hinges.size(), 1); // with one that nothing reads, if there is none
+    const std::size_t              n
+        = std::max<std::size_t>(hinges.size(), 1); // with one that nothing reads, if there is none
     arrays.hinge_nodes.assign(batched_size(n, 4), 0);
     for (auto *const numbers : { &arrays.rest_angles, &arrays.last_angles, &arrays.changes })
     {

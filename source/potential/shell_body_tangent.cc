@@ -183,7 +183,8 @@ namespace Exemplar
       {
         const HingeForm<double> gradient
             = turn.is_sheared()
-                  ? strains.hinge_angle(turn.hinge, positions).gradient_of_side(side_of(triangle, i))
+                  ? strains.hinge_angle(turn.hinge, positions)
+                        .gradient_of_side(side_of(triangle, i))
                   : times(turn.of_hinge, strains.hinge_angle(turn.hinge, positions).gradient());
         for (int k = 0; k < 4; ++k)
           for (int c = 0; c < 3 && has_node_of_turn(t, i, k); ++c)
@@ -289,12 +290,12 @@ namespace Exemplar
         for (int i = 0; i < 4; ++i)
           for (int j = 0; j < 4 && has_node_of_turn(t, edge, i); ++j)
             for (int k = 0; k < 9 && has_node_of_turn(t, edge, j); ++k)
-              if (const unsigned int row    = dofs[t].hinges[edge][i] + k / 3,
-                  column                    = dofs[t].hinges[edge][j] + k % 3;
+              if (const unsigned int row = dofs[t].hinges[edge][i] + k / 3,
+                  column                 = dofs[t].hinges[edge][j] + k % 3;
                   row >= column)
-                to.entries[lower(row, column)] += moment * of.factor
-                                                  * (of.a[i][k / 3] * of.b[j][k % 3]
-                                                     + of.b[i][k / 3] * of.a[j][k % 3]);
+                to.entries[lower(row, column)]
+                    += moment * of.factor
+                       * (of.a[i][k / 3] * of.b[j][k % 3] + of.b[i][k / 3] * of.a[j][k % 3]);
       };
       if (turn.is_sheared())
         for (const auto &of : angle.hessian_of_side(side_of(parts.mesh.triangles()[t], edge)))
@@ -311,9 +312,9 @@ namespace Exemplar
                           const Vector      &positions,
                           TriangleTangent   &to) const
   {
-    const bool   convex = kind == Tangent::convex;
-    const double factor = (1. + damping) * parts.mesh.triangles()[t].volume();
-    const TriangleStrain<double> at = strains.triangle(t, positions);
+    const bool                   convex = kind == Tangent::convex;
+    const double                 factor = (1. + damping) * parts.mesh.triangles()[t].volume();
+    const TriangleStrain<double> at     = strains.triangle(t, positions);
     find_strain_slopes(t, at, positions, to);
     for (unsigned int p = 0; p < dofs[t].n; ++p)
       for (unsigned int q = 0; q <= p; ++q)
@@ -399,10 +400,9 @@ namespace Exemplar
       const ShellHinge &hinge = strains.get_hinges()[h];
       if (hinge.kind != 0)
         continue; // of a slope that is held
-      const HingeAngle<double> angle  = strains.hinge_angle(h, positions);
-      const HingeForm<double>  first  = angle.gradient_of_side(0),
-                              second = angle.gradient_of_side(1);
-      const double half_length = 0.5 * parts.mesh.edges()[hinge.edge].length;
+      const HingeAngle<double> angle = strains.hinge_angle(h, positions);
+      const HingeForm<double> first = angle.gradient_of_side(0), second = angle.gradient_of_side(1);
+      const double            half_length = 0.5 * parts.mesh.edges()[hinge.edge].length;
       for (int i = 0; i < 4; ++i)
         for (int c = 0; c < 3; ++c)
           if (const int other = index_of(3 * hinge.nodes[i] + c); other != FreeDofs::held)

@@ -46,9 +46,9 @@ namespace Exemplar
     std::array<unsigned int, 3> nodes;
     std::array<unsigned int, 3> edges;
     std::array<double, 3>       signs; ///< 1 for the first triangle of an edge, -1 for the second
-    double                      thickness = 0.;     ///< [m]
-    double                      area      = 0.;     ///< [m^2]
-    std::array<Vector3<double>, 3> axes; ///< of the frame; the third is the normal
+    double                      thickness = 0.; ///< [m]
+    double                      area      = 0.; ///< [m^2]
+    std::array<Vector3<double>, 3> axes;        ///< of the frame; the third is the normal
 
     /// [m^3]
     double

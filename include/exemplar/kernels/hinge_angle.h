@@ -101,7 +101,7 @@ namespace Exemplar
       const Vector3<Number>  rho    = times(length / dot(normal, normal), normal);
       const Number           s      = dot(side == 0 ? a : b, edge) / square;
       HingeForm<Number>      form{ { times(Number(1.) - s, rho), times(s, rho), {}, {} } };
-      form[2 + side]                = times(Number(-1.), rho);
+      form[2 + side] = times(Number(-1.), rho);
       return form;
     }
 

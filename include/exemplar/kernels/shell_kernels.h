@@ -17,15 +17,15 @@ namespace Exemplar
   {
     enum : std::size_t
     {
-      gradients     = 0,  ///< of vertex a along axis j: 2 a + j
-      bending       = 6,  ///< of edge i: 3 i + k
-      lengths       = 15, ///< of edges
-      of_hinge      = 18, ///< of the turn at edge i by the change of its hinge's angle
-      of_slope      = 21, ///< and by its slope
-      lambda        = 24,
-      mu            = 25,
-      volume        = 26,
-      size          = 27
+      gradients = 0,  ///< of vertex a along axis j: 2 a + j
+      bending   = 6,  ///< of edge i: 3 i + k
+      lengths   = 15, ///< of edges
+      of_hinge  = 18, ///< of the turn at edge i by the change of its hinge's angle
+      of_slope  = 21, ///< and by its slope
+      lambda    = 24,
+      mu        = 25,
+      volume    = 26,
+      size      = 27
     };
   } // namespace TriangleNumber
 
@@ -34,9 +34,10 @@ namespace Exemplar
   {
     enum : std::size_t
     {
-      forces         = 0,  ///< of membranes at vertex a: 3 a + c [N]
-      moments        = 9,  ///< at the edges [N m]
-      scale          = 12, ///< of the stresses of which forces are differences, times the volume: of the membrane
+      forces  = 0, ///< of membranes at vertex a: 3 a + c [N]
+      moments = 9, ///< at the edges [N m]
+      scale
+      = 12, ///< of the stresses of which forces are differences, times the volume: of the membrane
       bending_scale  = 13, ///< and of what bends
       energy         = 14,
       energy_elastic = 15,

@@ -150,31 +150,30 @@ namespace Exemplar
     static void
     find_strains(const TriangleTask &task, const std::size_t begin, const std::size_t end)
     {
-      for_each_group(
-          begin, end,
-          [&](const Group &group)
-          {
-            const TriangleShape<Number>  of = shape(task, group);
-            const TriangleStrain<Number> triangle(task.kind, of, places(task, group));
-            std::array<Number, 3>        turns;
-            for (int i = 0; i < 3; ++i)
-              turns[i] = rest(task, group, TriangleNumber::of_hinge + i)
-                             * gather(task.changes, task.hinges + group.at(3, i))
-                         + rest(task, group, TriangleNumber::of_slope + i)
-                               * gather(task.positions, task.slopes + group.at(3, i));
-            const ShellNumbers<Number> strain = triangle.strain(turns);
-            for (std::size_t k = 0; k < n_shell_strains; ++k)
-              store(strain[k], task.strains, group, n_shell_strains, k);
-            store(triangle.membrane().area_ratio(), task.areas, group, 1, 0);
-            if (task.frames == nullptr)
-              return;
-            for (int c = 0; c < 3; ++c)
-            {
-              store(triangle.membrane().axis(0)[c], task.frames, group, 9, c);
-              store(triangle.membrane().axis(1)[c], task.frames, group, 9, 3 + c);
-              store(triangle.membrane().normal()[c], task.frames, group, 9, 6 + c);
-            }
-          });
+      for_each_group(begin, end,
+                     [&](const Group &group)
+                     {
+                       const TriangleShape<Number>  of = shape(task, group);
+                       const TriangleStrain<Number> triangle(task.kind, of, places(task, group));
+                       std::array<Number, 3>        turns;
+                       for (int i = 0; i < 3; ++i)
+                         turns[i] = rest(task, group, TriangleNumber::of_hinge + i)
+                                        * gather(task.changes, task.hinges + group.at(3, i))
+                                    + rest(task, group, TriangleNumber::of_slope + i)
+                                          * gather(task.positions, task.slopes + group.at(3, i));
+                       const ShellNumbers<Number> strain = triangle.strain(turns);
+                       for (std::size_t k = 0; k < n_shell_strains; ++k)
+                         store(strain[k], task.strains, group, n_shell_strains, k);
+                       store(triangle.membrane().area_ratio(), task.areas, group, 1, 0);
+                       if (task.frames == nullptr)
+                         return;
+                       for (int c = 0; c < 3; ++c)
+                       {
+                         store(triangle.membrane().axis(0)[c], task.frames, group, 9, c);
+                         store(triangle.membrane().axis(1)[c], task.frames, group, 9, 3 + c);
+                         store(triangle.membrane().normal()[c], task.frames, group, 9, 6 + c);
+                       }
+                     });
     }
 
     /// The weight of the i-th of the examples in each triangle.
@@ -189,9 +188,10 @@ namespace Exemplar
       {
         const std::size_t triangle = group.batch * batch_size + group.lane + l;
         numbers[l]                 = 0.;
-        for (std::size_t s = of.share_start[triangle]; triangle < task.n && s < of.share_start[triangle + 1]; ++s)
-          numbers[l] += of.shares[s].value
-                        * task.weights[of.shares[s].region * of.n_all + of.first + i];
+        for (std::size_t s = of.share_start[triangle];
+             triangle < task.n && s < of.share_start[triangle + 1]; ++s)
+          numbers[l]
+              += of.shares[s].value * task.weights[of.shares[s].region * of.n_all + of.first + i];
       }
       return Lanes<Number>::load(numbers);
     }
@@ -238,7 +238,7 @@ namespace Exemplar
                        if (!of_strain_alone)
                          strain = difference_of(strain, load_six(task.targets, group));
                        const ShellNumbers<Number> T = elasticity(task, group).stress(strain);
-                       const Number volume = rest(task, group, TriangleNumber::volume);
+                       const Number volume          = rest(task, group, TriangleNumber::volume);
                        for (std::size_t i = 0; i < task.examples.n; ++i)
                        {
                          ShellNumbers<Number> E;
@@ -309,7 +309,8 @@ namespace Exemplar
             if (task.past != nullptr)
             {
               const Number               s(task.damping);
-              const ShellNumbers<Number> past = load_six(task.past, group), since = difference_of(e, past),
+              const ShellNumbers<Number> past       = load_six(task.past, group),
+                                         since      = difference_of(e, past),
                                          of_damping = C.stress(since);
               const Magnitudes of_past(C.stress(past));
               put(Number(0.5) * s * volume * contract(of_damping, since), energy_damping);

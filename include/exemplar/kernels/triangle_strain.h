@@ -116,8 +116,8 @@ namespace Exemplar
   class TriangleStrain
   {
   public:
-    TriangleStrain(const ShellKind                        kind,
-                   const TriangleShape<Number>           &shape,
+    TriangleStrain(const ShellKind                       kind,
+                   const TriangleShape<Number>          &shape,
                    const std::array<Vector3<Number>, 3> &places)
         : kind(kind), shape(shape), x(places),
           of_plane(column(shape, places, 0), column(shape, places, 1))
@@ -205,9 +205,9 @@ namespace Exemplar
   private:
     /// Column j of the gradient of a field of the vertices.
     static Vector3<Number>
-    column(const TriangleShape<Number>           &shape,
+    column(const TriangleShape<Number>          &shape,
            const std::array<Vector3<Number>, 3> &of_vertices,
-           const int                              j)
+           const int                             j)
     {
       return combine(shape.gradients[1][j], difference(of_vertices[1], of_vertices[0]),
                      shape.gradients[2][j], difference(of_vertices[2], of_vertices[0]));

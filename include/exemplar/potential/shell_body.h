@@ -344,21 +344,22 @@ namespace Exemplar
     std::size_t
     memory_of_arrays() const;
 
-    const ShellParts                            parts;
-    ShellStrains                                strains;
-    VolumeResistance                            volumes;
-    std::vector<ShellElasticity>                elasticities;
-    const SymmetricPattern                     *pattern = nullptr; ///< since attach()
-    std::vector<TriangleDofs>                   dofs;              ///< since attach()
-    double                                      damping = 0.;      ///< s
-    Arrays                                      arrays;
+    const ShellParts             parts;
+    ShellStrains                 strains;
+    VolumeResistance             volumes;
+    std::vector<ShellElasticity> elasticities;
+    const SymmetricPattern      *pattern = nullptr; ///< since attach()
+    std::vector<TriangleDofs>    dofs;              ///< since attach()
+    double                       damping = 0.;      ///< s
+    Arrays                       arrays;
     std::vector<std::array<double, 6>>
-        scales_at_rest; ///< of triangles: |gradients| [1/m], then |bending| [-]
-    std::vector<double> moments, moment_scales; ///< of hinges, since find_stresses() and add_forces() [N m]
-    double rest_size          = 0.;                     ///< the greatest coordinate at rest [m]
-    double force_of_rounding  = 0.;                     ///< greatest of a node [N]
-    double stress_of_rounding = 0.;                     ///< (sum V T^2)^(1/2)
-    double strain_of_rounding = 0.;                     ///< (sum V e^2)^(1/2) [m^(3/2)]
+                        scales_at_rest; ///< of triangles: |gradients| [1/m], then |bending| [-]
+    std::vector<double> moments,
+        moment_scales;              ///< of hinges, since find_stresses() and add_forces() [N m]
+    double rest_size          = 0.; ///< the greatest coordinate at rest [m]
+    double force_of_rounding  = 0.; ///< greatest of a node [N]
+    double stress_of_rounding = 0.; ///< (sum V T^2)^(1/2)
+    double strain_of_rounding = 0.; ///< (sum V e^2)^(1/2) [m^(3/2)]
   };
 } // namespace Exemplar
 

@@ -89,9 +89,9 @@ namespace Exemplar::Testing
         EXPECT_NEAR(columns[n + i], 2. * of.u[i], 1e-14);
       }
       // what is kept has the shear of then
-      const auto kept          = matrix->keep();
-      const auto twin          = matrix->twin();
-      matrix->shear()->factors = { 0., 0., 0. };
+      const auto kept            = matrix->keep();
+      const auto twin            = matrix->twin();
+      matrix->shear()->factors   = { 0., 0., 0. };
       std::vector<double> column = of.product(of.u);
       kept->apply(column);
       for (unsigned int i = 0; i < n; ++i)
@@ -109,8 +109,8 @@ namespace Exemplar::Testing
       form.coupled      = { 0 };
       const auto system = make_umfpack_system(of.pattern, form);
       of.set(system->matrix_values());
-      *system->shear()           = of.shear;
-      system->columns()          = { 0.1, 0.2, -0.3, 0.4, 0.5, 0.6 };
+      *system->shear()            = of.shear;
+      system->columns()           = { 0.1, 0.2, -0.3, 0.4, 0.5, 0.6 };
       const std::vector<double> G = system->columns();
       system->factorize({});
       BorderedVector right_side{ of.product(of.u), { 5. * 0.8 }, {} };

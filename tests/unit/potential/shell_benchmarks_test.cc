@@ -57,8 +57,7 @@ namespace Exemplar::Testing
     small_displacements(ShellScene &scene, const Vector &load)
     {
       return scene.solve(
-          scene.assemble(Tangent::exact, rest_positions(scene.body->get_strains()), {}),
-          load);
+          scene.assemble(Tangent::exact, rest_positions(scene.body->get_strains()), {}), load);
     }
 
     /// A cylinder's part of angles up to `angle` from its top on and of a length, with triangles that

@@ -494,10 +494,9 @@ namespace Exemplar::Testing
         double                    size       = 1.;
         for (; size > 1e-13 && iterations < 100; ++iterations)
         {
-          const Vector step
-              = scene.solve(scene.assemble(Tangent::convex, x, weights), at.gradient);
-          double part = 1.;
-          Vector y    = x;
+          const Vector step = scene.solve(scene.assemble(Tangent::convex, x, weights), at.gradient);
+          double       part = 1.;
+          Vector       y    = x;
           y.add(-part, step);
           ElasticEvaluation next = scene.evaluate(y, weights);
           while (next.energy > at.energy && part > 1e-10)
