@@ -35,20 +35,6 @@ namespace Exemplar
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
       return nodes;
     }
-    /// Which one of the two triangles of an edge a triangle is.
-    int
-    side_of(const ShellTriangle &triangle, const int edge)
-    {
-      return triangle.signs[edge] > 0. ? 0 : 1;
-    }
-
-    HingeForm<double>
-    times(const double factor, HingeForm<double> form)
-    {
-      for (Vector3<double> &vector : form)
-        vector = times(factor, vector);
-      return form;
-    }
   } // namespace
 
   SymmetricPattern
@@ -101,13 +87,6 @@ namespace Exemplar
       dofs.push_back(find_dofs(t));
   }
 
-  bool
-  ShellBody::has_node_of_turn(const unsigned int triangle, const int edge, const int node) const
-  {
-    return !strains.turns(triangle)[edge].is_sheared()
-           || node != 3 - side_of(parts.mesh.triangles()[triangle], edge);
-  }
-
   ShellBody::TriangleDofs
   ShellBody::find_dofs(const unsigned int triangle) const
   {
@@ -128,7 +107,7 @@ namespace Exemplar
         for (int k = 0; k < 4; ++k)
         {
           const unsigned int node = strains.get_hinges()[turn.hinge].nodes[k];
-          if (has_node_of_turn(triangle, i, k))
+          if (!turn.is_sheared())
             result.hinges[i][k] = index_of_node(node);
           for (unsigned int c = 0; c < 3; ++c)
             result.is_beside_held |= parts.free_dofs.free_index(3 * node + c) == FreeDofs::held;
@@ -179,16 +158,19 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
     {
       const ShellTurn &turn = strains.turns(t)[i];
-      if (turn.hinge >= 0)
+      if (turn.is_sheared())
       {
-        const HingeForm<double> gradient
-            = turn.is_sheared()
-                  ? strains.hinge_angle(turn.hinge, positions)
-                        .gradient_of_side(side_of(triangle, i))
-                  : times(turn.of_hinge, strains.hinge_angle(turn.hinge, positions).gradient());
+        const auto gradient = at.side(i).of_turn();
+        for (int k = 0; k < 3; ++k)
+          for (int c = 0; c < 3; ++c)
+            add(i, gradient[k][c], to.B[3 * ((i + k) % 3) + c]);
+      }
+      else if (turn.hinge >= 0)
+      {
+        const HingeForm<double> gradient = strains.hinge_angle(turn.hinge, positions).gradient();
         for (int k = 0; k < 4; ++k)
-          for (int c = 0; c < 3 && has_node_of_turn(t, i, k); ++c)
-            add(i, gradient[k][c], to.B[dofs[t].hinges[i][k] + c]);
+          for (int c = 0; c < 3; ++c)
+            add(i, turn.of_hinge * gradient[k][c], to.B[dofs[t].hinges[i][k] + c]);
       }
       if (turn.slope >= 0)
         add(i, turn.of_slope, to.B[dofs[t].slopes[i]]);
@@ -274,36 +256,41 @@ namespace Exemplar
   }
 
   void
+  ShellBody::add_turn_geometry(const unsigned int            t,
+                               const int                     edge,
+                               const TriangleStrain<double> &at,
+                               TriangleTangent              &to) const
+  {
+    for (const SideProduct<double> &of : at.side(edge).second_of_turn())
+    {
+      std::array<double, 9> a, b;
+      for (int k = 0; k < 9; ++k)
+      {
+        const int place = 3 * ((edge + k / 3) % 3) + k % 3;
+        a[place]        = moments[strains.turns(t)[edge].hinge] * of.factor * of.a[k / 3][k % 3];
+        b[place]        = of.b[k / 3][k % 3];
+      }
+      for (unsigned int p = 0; p < 9; ++p)
+        for (unsigned int q = 0; q <= p; ++q)
+          to.entries[lower(p, q)] += a[p] * b[q] + b[p] * a[q];
+    }
+  }
+
+  void
   ShellBody::add_hinge_geometry(const unsigned int t,
+                                const int          edge,
                                 const Vector      &positions,
                                 TriangleTangent   &to) const
   {
-    for (int edge = 0; edge < 3; ++edge)
-    {
-      const ShellTurn &turn = strains.turns(t)[edge];
-      if (turn.hinge < 0)
-        continue;
-      const double             moment = moments[turn.hinge];
-      const HingeAngle<double> angle  = strains.hinge_angle(turn.hinge, positions);
-      const auto               add    = [&](const HingeProduct<double> &of)
-      {
-        for (int i = 0; i < 4; ++i)
-          for (int j = 0; j < 4 && has_node_of_turn(t, edge, i); ++j)
-            for (int k = 0; k < 9 && has_node_of_turn(t, edge, j); ++k)
-              if (const unsigned int row = dofs[t].hinges[edge][i] + k / 3,
-                  column                 = dofs[t].hinges[edge][j] + k % 3;
-                  row >= column)
-                to.entries[lower(row, column)]
-                    += moment * of.factor
-                       * (of.a[i][k / 3] * of.b[j][k % 3] + of.b[i][k / 3] * of.a[j][k % 3]);
-      };
-      if (turn.is_sheared())
-        for (const auto &of : angle.hessian_of_side(side_of(parts.mesh.triangles()[t], edge)))
-          add(of);
-      else if (strains.get_hinges()[turn.hinge].owner == t)
-        for (const auto &of : angle.hessian())
-          add(of);
-    }
+    const int   hinge = strains.turns(t)[edge].hinge;
+    const auto &at    = dofs[t].hinges[edge];
+    for (const HingeProduct<double> &of : strains.hinge_angle(hinge, positions).hessian())
+      for (unsigned int p = 0; p < 12; ++p)
+        for (unsigned int q = 0; q < 12; ++q)
+          if (const unsigned int row = at[p / 3] + p % 3, column = at[q / 3] + q % 3; row >= column)
+            to.entries[lower(row, column)] += moments[hinge] * of.factor
+                                              * (of.a[p / 3][p % 3] * of.b[q / 3][q % 3]
+                                                 + of.b[p / 3][p % 3] * of.a[q / 3][q % 3]);
   }
 
   void
@@ -318,13 +305,18 @@ namespace Exemplar
     find_strain_slopes(t, at, positions, to);
     for (unsigned int p = 0; p < dofs[t].n; ++p)
       for (unsigned int q = 0; q <= p; ++q)
-        to.entries[lower(p, q)] = factor * contract(to.CB[p], to.B[q]);
+        to.entries[lower(p, q)]
+            = factor * (p < 9 ? contract(to.CB[p], to.B[q]) : contract_bending(to.CB[p], to.B[q]));
     if (parts.mesh.kind() == ShellKind::hinges)
       add_stretch_geometry(t, at, convex, to);
     else
       add_membrane_geometry(t, at, convex, to);
-    if (!convex) // what moments have that is positive makes steps shorter, and twice as many
-      add_hinge_geometry(t, positions, to);
+    // what moments have that is positive makes steps shorter, and twice as many
+    for (int edge = 0; edge < 3 && !convex; ++edge)
+      if (const ShellTurn &turn = strains.turns(t)[edge]; turn.is_sheared())
+        add_turn_geometry(t, edge, at, to);
+      else if (turn.hinge >= 0 && strains.get_hinges()[turn.hinge].owner == t)
+        add_hinge_geometry(t, edge, positions, to);
   }
 
   void
@@ -395,6 +387,8 @@ namespace Exemplar
   ShellBody::shear_by(const Vector &positions, const IndexOf &index_of) const
   {
     UnknownShear shear;
+    shear.others.reserve(12 * parts.mesh.n_slopes());
+    shear.factors.reserve(12 * parts.mesh.n_slopes());
     for (std::size_t h = 0; h < strains.get_hinges().size() && parts.mesh.n_slopes() > 0; ++h)
     {
       const ShellHinge &hinge = strains.get_hinges()[h];

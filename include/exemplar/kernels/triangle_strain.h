@@ -2,6 +2,7 @@
 #ifndef exemplar_triangle_strain_h
 #define exemplar_triangle_strain_h
 
+#include <exemplar/kernels/hinge_angle.h>
 #include <exemplar/kernels/membrane_strain.h>
 #include <exemplar/kernels/vector_product.h>
 
@@ -128,6 +129,13 @@ namespace Exemplar
     membrane() const
     {
       return of_plane;
+    }
+
+    /// The triangle as it is seen from edge i.
+    HingeSide<Number>
+    side(const int i) const
+    {
+      return { x[i], x[(i + 1) % 3], x[(i + 2) % 3] };
     }
 
     /// Edge i.

@@ -194,8 +194,8 @@ namespace Exemplar
       unsigned int                       n = 0;
       std::array<unsigned int, max_dofs> dofs{};
       std::array<std::array<unsigned int, 4>, 3>
-                                   hinges{}; ///< index of the first one of each node, by edge
-      std::array<unsigned int, 3>  slopes{}; ///< their indices, by edge
+          hinges{}; ///< index of the first one of each node, by edge that is not sheared
+      std::array<unsigned int, 3>  slopes{};               ///< their indices, by edge
       bool                         is_beside_held = false; ///< or its turns' hinges are
       std::array<int, max_entries> positions{}; ///< of the lower triangle by rows; -1: held
     };
@@ -219,10 +219,6 @@ namespace Exemplar
 
     TriangleDofs
     find_dofs(unsigned int triangle) const;
-
-    /// Whether the turn at an edge depends on a node of its hinge, with the unknowns sheared.
-    bool
-    has_node_of_turn(unsigned int triangle, int edge, int node) const;
 
     /// find_shear(), by index_of(degree of freedom).
     template <typename IndexOf>
@@ -329,8 +325,19 @@ namespace Exemplar
                           bool                          convex,
                           TriangleTangent              &to) const;
 
+    /// Of the turn of the triangle's own normal about an edge.
     void
-    add_hinge_geometry(unsigned int triangle, const Vector &positions, TriangleTangent &to) const;
+    add_turn_geometry(unsigned int                  triangle,
+                      int                           edge,
+                      const TriangleStrain<double> &at,
+                      TriangleTangent              &to) const;
+
+    /// Of the hinge at an edge.
+    void
+    add_hinge_geometry(unsigned int     triangle,
+                       int              edge,
+                       const Vector    &positions,
+                       TriangleTangent &to) const;
 
     void
     add_columns(unsigned int           triangle,

@@ -8,17 +8,17 @@ namespace Exemplar::Testing
 {
   namespace
   {
-    constexpr unsigned int n = 6;
+    constexpr unsigned int n_sheared = 6;
 
     /// T^T A T on a band for a shear of the last two unknowns, and the full A.
     struct ShearedCase
     {
       ShearedCase()
       {
-        for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int j = 0; j < n_sheared; ++j)
         {
           pattern.column_start.push_back(pattern.row.size());
-          for (unsigned int i = j; i < std::min(n, j + 2); ++i)
+          for (unsigned int i = j; i < std::min(n_sheared, j + 2); ++i)
             pattern.row.push_back(i);
         }
         pattern.column_start.push_back(pattern.row.size());
@@ -38,7 +38,7 @@ namespace Exemplar::Testing
       set(std::vector<double> &values) const
       {
         values.assign(pattern.n_values(), 0.);
-        for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int j = 0; j < n_sheared; ++j)
           for (int k = pattern.column_start[j]; k < pattern.column_start[j + 1]; ++k)
             values[k] = value(pattern.row[k], j);
       }
@@ -47,21 +47,21 @@ namespace Exemplar::Testing
       std::vector<double>
       product(const std::vector<double> &u) const
       {
-        double N[n][n] = {};
-        for (unsigned int i = 0; i < n; ++i)
+        double N[n_sheared][n_sheared] = {};
+        for (unsigned int i = 0; i < n_sheared; ++i)
           N[i][i] = 1.;
         N[4][0] = 0.5;
         N[4][2] = -2.;
         N[5][3] = 0.7;
-        std::vector<double> v(n, 0.), f(n, 0.), result(n, 0.);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
+        std::vector<double> v(n_sheared, 0.), f(n_sheared, 0.), result(n_sheared, 0.);
+        for (unsigned int i = 0; i < n_sheared; ++i)
+          for (unsigned int j = 0; j < n_sheared; ++j)
             v[i] += N[i][j] * u[j];
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n_sheared; ++i)
+          for (unsigned int j = 0; j < n_sheared; ++j)
             f[i] += value(i, j) * v[j];
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n_sheared; ++i)
+          for (unsigned int j = 0; j < n_sheared; ++j)
             result[i] += N[j][i] * f[j];
         return result;
       }
@@ -74,19 +74,19 @@ namespace Exemplar::Testing
     TEST(ShearedOperator, SolvesForTheUnknownsThemselves)
     {
       const ShearedCase of;
-      const auto        matrix = make_sheared_operator(make_cholesky_operator(), n);
+      const auto        matrix = make_sheared_operator(make_cholesky_operator(), n_sheared);
       matrix->reinit(of.pattern);
       of.set(matrix->values());
       *matrix->shear() = of.shear;
       matrix->factorize({});
       std::vector<double> columns = of.product(of.u);
-      for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int i = 0; i < n_sheared; ++i)
         columns.push_back(2. * columns[i]);
       matrix->solve(columns, 0.);
-      for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int i = 0; i < n_sheared; ++i)
       {
         EXPECT_NEAR(columns[i], of.u[i], 1e-14);
-        EXPECT_NEAR(columns[n + i], 2. * of.u[i], 1e-14);
+        EXPECT_NEAR(columns[n_sheared + i], 2. * of.u[i], 1e-14);
       }
       // what is kept has the shear of then
       const auto kept            = matrix->keep();
@@ -94,7 +94,7 @@ namespace Exemplar::Testing
       matrix->shear()->factors   = { 0., 0., 0. };
       std::vector<double> column = of.product(of.u);
       kept->apply(column);
-      for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int i = 0; i < n_sheared; ++i)
         EXPECT_NEAR(column[i], of.u[i], 1e-6);
       EXPECT_TRUE(twin->shear()->sheared.empty());
     }
@@ -114,13 +114,13 @@ namespace Exemplar::Testing
       const std::vector<double> G = system->columns();
       system->factorize({});
       BorderedVector right_side{ of.product(of.u), { 5. * 0.8 }, {} };
-      for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int i = 0; i < n_sheared; ++i)
       {
         right_side.positions[i] -= G[i] * 0.8;
         right_side.weights[0] -= G[i] * of.u[i];
       }
       system->solve(right_side, {});
-      for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int i = 0; i < n_sheared; ++i)
         EXPECT_NEAR(right_side.positions[i], of.u[i], 1e-13);
       EXPECT_NEAR(right_side.weights[0], 0.8, 1e-13);
       EXPECT_EQ(system->columns(), G);
