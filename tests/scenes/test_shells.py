@@ -39,7 +39,7 @@ class Shells(SceneTest):
         for weight in (.25, .5, .75):
             output = self.solve_shell({"Scene": "interpolation", "Examples/Poses": "rolled.obj",
                                   "Examples/Prescribed weights": f"1-{weight}*t; {weight}*t", "Time/Increments": "4",
-                                  "Solver/Tolerance": "1e-11"})
+                                  "Solver/Tolerance": "1e-10", "Solver/Step tolerance": "1e-10"})
             found = [place for _, place in sorted(nodes_of(output / "final.msh").items())]
             wanted = rolled_vertices(LENGTH, WIDTH, COLUMNS, ROWS, weight * math.pi)
             self.assertLess(best_distance(found, wanted), 1e-9 * LENGTH)
@@ -97,7 +97,7 @@ class Shells(SceneTest):
     def test_a_free_shell_keeps_its_momentum(self):
         self.write_strip()
         output = self.solve_shell({"Scene": "dynamic", "Time/Step": "0.01", "Time/End": "0.2", "Initial/Velocity": "0; 0; x",
-                              "Solver/Step tolerance": "1e-10"})
+                              "Solver/Tolerance": "1e-10", "Solver/Step tolerance": "1e-10"})
         first, last = read_csv(output)[1], read_csv(output)[-1]
         for c in "xyz":
             self.assertAlmostEqual(first[f"momentum_{c}"], last[f"momentum_{c}"], delta=1e-12)
