@@ -10,6 +10,7 @@
 
 namespace Exemplar
 {
+  /// ShellKernels of one number type.
   template <typename Number>
   class ShellLoops
   {
