@@ -15,7 +15,9 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr unsigned int max_iterations         = 7;  ///< with one metric in a step
+    constexpr unsigned int max_iterations = 7; ///< with one metric in a step
+    constexpr unsigned int min_iterations
+        = 2; ///< the same, of bodies that do not keep their tangent
     constexpr unsigned int max_contact_iterations = 14; ///< the same where gaps matter
     constexpr unsigned int max_metrics            = 2;  ///< that a step may ask for
     constexpr unsigned int max_changes            = 30; ///< of terms in a step
@@ -178,9 +180,21 @@ namespace Exemplar
         history.couplings != potential.get_tangent().couplings_of_terms());
   }
 
+  unsigned int
+  QuasiNewton::most_iterations() const
+  {
+    return potential.get_body().keeps_its_tangent()
+               ? max_iterations
+               : std::clamp<unsigned int>(std::lround(metric.cost_in_iterations()), min_iterations,
+                                          max_iterations);
+  }
+
   bool
   QuasiNewton::is_slow() const
   {
+    if (!potential.get_body().keeps_its_tangent() && !history.last_in_contact
+        && history.last_iterations > most_iterations())
+      return true;
     const bool         touched = history.last_in_contact;
     const unsigned int iterations
         = touched ? history.contact_iterations : history.iterations - history.contact_iterations;
@@ -412,7 +426,7 @@ namespace Exemplar
         break;
       memory.old_weights       = trial.weights;
       const double       slope = find_step(trial, evaluation, iteration);
-      const unsigned int most  = in_contact ? max_contact_iterations : max_iterations;
+      const unsigned int most  = in_contact ? max_contact_iterations : most_iterations();
       const bool         is_descent
           = n_with_metric < most && slope < 0. && take_step(slope, trial, evaluation, report);
       if (!is_descent)

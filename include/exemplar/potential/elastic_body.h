@@ -188,6 +188,14 @@ namespace Exemplar
     /// In bytes, its pattern included.
     virtual std::size_t
     memory_consumption() const = 0;
+
+    /// Whether an earlier tangent that turns with the nodes is good for many steps. It is not in sheets, whose triangles turn against
+    /// each other, and are much stiffer along themselves than across.
+    virtual bool
+    keeps_its_tangent() const
+    {
+      return true;
+    }
   };
 } // namespace Exemplar
 

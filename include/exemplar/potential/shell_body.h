@@ -182,6 +182,12 @@ namespace Exemplar
     std::size_t
     memory_consumption() const override;
 
+    bool
+    keeps_its_tangent() const override
+    {
+      return false;
+    }
+
   private:
     /// Three vertices, and a slope or a node more for each edge.
     static constexpr unsigned int max_dofs = 18;

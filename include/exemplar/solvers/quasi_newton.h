@@ -133,9 +133,14 @@ namespace Exemplar
     take_next_metric();
 
     /// Whether the last step took more iterations than steps like it since the metric was made, its cost included. Contact
-    /// takes iterations that another metric would not save.
+    /// takes iterations that another metric would not save. Of a body that does not keep its tangent: also whether that step
+    /// had to make the metric on its way.
     bool
     is_slow() const;
+
+    /// So many iterations with one metric a step may take without contact before it makes another.
+    unsigned int
+    most_iterations() const;
 
     /// A step has ended, or the part of one that the metric was good for.
     void
