@@ -57,8 +57,8 @@ namespace Exemplar
       double       by_radius = 0., by_coefficient = 0.;
     };
 
-    Vector              by_positions;
-    Vector              by_start; ///< by what slips are counted from; empty without friction
+    Vector by_positions;
+    Vector by_start; ///< by what slips are counted from; empty without friction
     std::vector<double> by_young; ///< by cell
     Vector by_rest_positions;     ///< those in the middles of edges are numbers of their own
     Vector by_first_positions;    ///< by those from which pairs have widths of their own
