@@ -190,6 +190,17 @@ namespace Exemplar
   }
 
   bool
+  QuasiNewton::should_have_another(const double residual, const double gradient_ratio) const
+  {
+    if (potential.get_body().keeps_its_tangent() || history.steps == 0 || in_contact
+        || !(residual > parameters.step_tolerance))
+      return false;
+    return !(gradient_ratio < 1.)
+           || std::log(parameters.step_tolerance / residual)
+                  < metric.cost_in_iterations() * std::log(gradient_ratio);
+  }
+
+  bool
   QuasiNewton::is_slow() const
   {
     if (!potential.get_body().keeps_its_tangent() && !history.last_in_contact
@@ -457,6 +468,8 @@ namespace Exemplar
             iteration);
       report_iteration(potential, evaluation, trial, report);
       is_near = has_arrived(accepted, trial, report, ratio, iteration);
+      if (!is_near && should_have_another(report.residual, ratio))
+        n_with_metric = std::max(max_iterations, max_contact_iterations);
     }
     report.status = SolveStatus::converged;
   }

@@ -138,6 +138,11 @@ namespace Exemplar
     bool
     is_slow() const;
 
+    /// Whether a metric of an earlier step is to be replaced within this one, because it would take more iterations to the tolerance, at
+    /// the rate of the last one, than another costs. Of a body that does not keep its tangent alone.
+    bool
+    should_have_another(double residual, double gradient_ratio) const;
+
     /// So many iterations with one metric a step may take without contact before it makes another.
     unsigned int
     most_iterations() const;
