@@ -20,8 +20,10 @@ namespace Exemplar
         = 2; ///< the same, of bodies that do not keep their tangent
     constexpr unsigned int max_contact_iterations = 14; ///< the same where gaps matter
     constexpr unsigned int max_metrics            = 2;  ///< that a step may ask for
-    constexpr unsigned int max_changes            = 30; ///< of terms in a step
-    constexpr unsigned int max_halvings           = 5;
+    constexpr unsigned int max_short_metrics
+        = 8; ///< the same, of bodies that do not keep their tangent
+    constexpr unsigned int max_changes  = 30; ///< of terms in a step
+    constexpr unsigned int max_halvings = 5;
     /// So often what terms lag is renewed before a step is solved. Without a bound it jumps to and fro as the positions do,
     /// and neither settles.
     constexpr unsigned int n_early_changes = 3;
@@ -414,7 +416,9 @@ namespace Exemplar
     const FreeDofs      &free_dofs    = potential.get_free_dofs();
     std::vector<double> &old_gradient = memory.old_gradient;
     Iteration           &iteration    = memory.iteration;
-    unsigned int         n_metrics = 0, n_with_metric = 0, n_changes = 0;
+    const unsigned int   most_metrics
+        = potential.get_body().keeps_its_tangent() ? max_metrics : max_short_metrics;
+    unsigned int n_metrics = 0, n_with_metric = 0, n_changes = 0;
     iteration.last_length = iteration.last_contraction = 0.;
     contact.forget_response();
     measure(trial, evaluation, iteration);
@@ -442,7 +446,7 @@ namespace Exemplar
           = n_with_metric < most && slope < 0. && take_step(slope, trial, evaluation, report);
       if (!is_descent)
       {
-        if (++n_metrics > max_metrics)
+        if (++n_metrics > most_metrics)
           return;
         if (n_with_metric < most) // the line search gave up, and went back
         {
