@@ -39,7 +39,7 @@ class Shells(SceneTest):
         for weight in (.25, .5, .75):
             output = self.solve_shell({"Scene": "interpolation", "Examples/Poses": "rolled.obj",
                                   "Examples/Prescribed weights": f"1-{weight}*t; {weight}*t", "Time/Increments": "4",
-                                  "Solver/Tolerance": "1e-10", "Solver/Step tolerance": "1e-10"})
+                                  "Solver/Tolerance": "1e-11"})
             found = [place for _, place in sorted(nodes_of(output / "final.msh").items())]
             wanted = rolled_vertices(LENGTH, WIDTH, COLUMNS, ROWS, weight * math.pi)
             self.assertLess(best_distance(found, wanted), 1e-9 * LENGTH)
