@@ -40,12 +40,6 @@ namespace Exemplar
         return values;
       }
 
-      UnknownShear *
-      shear() override
-      {
-        return &of_unknowns;
-      }
-
       void
       factorize(const Vector & /*positions*/) override
       {
@@ -67,9 +61,8 @@ namespace Exemplar
       solve(BorderedVector &vector, const WeightLimits & /*limits*/, double /*accuracy*/) override
       {
         Vector all(sparse.m());
-        of_unknowns.forces_to_sheared(vector.positions.data());
-        auto next = std::copy(vector.positions.begin(), vector.positions.end(), all.begin());
-        next      = std::copy(vector.weights.begin(), vector.weights.end(), next);
+        auto   next = std::copy(vector.positions.begin(), vector.positions.end(), all.begin());
+        next        = std::copy(vector.weights.begin(), vector.weights.end(), next);
         std::copy(vector.multipliers.begin(), vector.multipliers.end(), next);
         umfpack.solve(all);
         const auto first_weight     = all.begin() + vector.positions.size();
@@ -77,7 +70,6 @@ namespace Exemplar
         std::copy(all.begin(), first_weight, vector.positions.begin());
         std::copy(first_weight, first_multiplier, vector.weights.begin());
         std::copy(first_multiplier, all.end(), vector.multipliers.begin());
-        of_unknowns.from_sheared(vector.positions.data());
       }
 
       void
@@ -144,18 +136,13 @@ namespace Exemplar
       void
       fill()
       {
-        const std::vector<double> columns = G;
-        for (std::size_t begin = 0; begin < G.size(); begin += pattern.n())
-          of_unknowns.forces_to_sheared(G.data() + begin);
         sparse = 0.;
         for_each_entry([&](const unsigned int i, const unsigned int j, const double value)
                        { sparse.set(i, j, value); });
-        G = columns;
       }
 
       SymmetricPattern             pattern;
       std::vector<double>          values;
-      UnknownShear                 of_unknowns; ///< none, if nobody sets it
       dealii::SparsityPattern      sparsity;
       dealii::SparseMatrix<double> sparse;
       dealii::SparseDirectUMFPACK  umfpack;

@@ -63,7 +63,8 @@ namespace Exemplar
       return nullptr;
     }
 
-    /// The shear of the unknowns, as SpdOperator::shear(). Columns and vectors are by the unknowns of A.
+    /// The shear of the unknowns, as SpdOperator::shear(). Columns and vectors are by the unknowns of A. Null with UMFPACK, too, which no
+    /// body that shears them takes: it has no fixed point.
     virtual UnknownShear *
     shear()
     {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/bordered_system.h>
 #include <exemplar/algebra/spd_operator.h>
 
 #include <gtest/gtest.h>
@@ -97,33 +96,6 @@ namespace Exemplar::Testing
       for (unsigned int i = 0; i < n_sheared; ++i)
         EXPECT_NEAR(column[i], of.u[i], 1e-6);
       EXPECT_TRUE(twin->shear()->sheared.empty());
-    }
-
-    TEST(ShearedOperator, IsWhatUmfpackSolves)
-    {
-      const ShearedCase of;
-      WeightForm        form;
-      form.H.reinit(1, 1);
-      form.H(0, 0) = 5.;
-      form.N.reinit(0, 1);
-      form.coupled      = { 0 };
-      const auto system = make_umfpack_system(of.pattern, form);
-      of.set(system->matrix_values());
-      *system->shear()            = of.shear;
-      system->columns()           = { 0.1, 0.2, -0.3, 0.4, 0.5, 0.6 };
-      const std::vector<double> G = system->columns();
-      system->factorize({});
-      BorderedVector right_side{ of.product(of.u), { 5. * 0.8 }, {} };
-      for (unsigned int i = 0; i < n_sheared; ++i)
-      {
-        right_side.positions[i] -= G[i] * 0.8;
-        right_side.weights[0] -= G[i] * of.u[i];
-      }
-      system->solve(right_side, {});
-      for (unsigned int i = 0; i < n_sheared; ++i)
-        EXPECT_NEAR(right_side.positions[i], of.u[i], 1e-13);
-      EXPECT_NEAR(right_side.weights[0], 0.8, 1e-13);
-      EXPECT_EQ(system->columns(), G);
     }
   } // namespace
 } // namespace Exemplar::Testing
