@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the sheets of shells beside this file: cloth.obj and face.obj of prm/shells, strip*.obj of the tutorial's step 12.
+"""Writes the sheets of shells beside this file: cloth.obj and face.obj of prm/shells, strip*.obj of the tutorial's step 12, sheet.obj of
+benchmarks.
 
     python3 meshes/surfaces/sheets.py
 """
@@ -50,6 +51,7 @@ def write(name, what, x, y, nx, ny, alternating):
 
 def main():
     write("cloth.obj", "a cloth of 1 m x 0.8 m", (-.5, .5), (-.4, .4), 28, 22, True)
+    write("sheet.obj", "a sheet of 1 m x 1 m", (-.5, .5), (-.5, .5), 50, 50, True)
     write_face(40, 50)
     # the column beyond 0.3 m is held
     strip, x, y = "a strip of 0.3 m x 0.06 m with a column more", (-.0125, .3), (-.03, .03)

@@ -67,6 +67,12 @@ namespace Exemplar
         return A->outer_products();
       }
 
+      UnknownShear *
+      shear() override
+      {
+        return A->shear();
+      }
+
       void
       factorize(const Vector &positions) override
       {

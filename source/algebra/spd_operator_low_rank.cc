@@ -192,6 +192,12 @@ namespace Exemplar
         return &products;
       }
 
+      UnknownShear *
+      shear() override
+      {
+        return matrix->shear();
+      }
+
       void
       factorize(const Vector &positions) override
       {

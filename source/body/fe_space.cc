@@ -173,10 +173,13 @@ namespace Exemplar
   }
 
   Vector
-  FESpace::with_tips(Vector positions, const std::vector<bool> &is_held) const
+  FESpace::with_tips(Vector                     positions,
+                     const std::vector<bool>   &is_held,
+                     const std::vector<double> &branches) const
   {
-    const ShellStrains strains(*shell_mesh);
-    const Vector       before = positions;
+    ShellStrains strains(*shell_mesh);
+    strains.set_branches(branches);
+    const Vector before = positions;
     for (unsigned int edge = 0; edge < is_held.size(); ++edge)
       if (!is_held[edge])
       {
@@ -188,9 +191,12 @@ namespace Exemplar
   }
 
   Vector
-  FESpace::with_slopes(Vector positions, const std::vector<bool> &is_held) const
+  FESpace::with_slopes(Vector                     positions,
+                       const std::vector<bool>   &is_held,
+                       const std::vector<double> &branches) const
   {
     ShellStrains strains(*shell_mesh);
+    strains.set_branches(branches);
     strains.set_held(std::vector<bool>(is_held.size(), true));
     const std::vector<double> slopes = strains.slopes(positions);
     for (unsigned int edge = 0; edge < is_held.size(); ++edge)

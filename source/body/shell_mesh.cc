@@ -122,6 +122,9 @@ namespace Exemplar
       const HingeSide<double> side(a, b, vertices[edge.opposite[0]]);
       edge.normal = combine(std::cos(0.5 * edge.angle), side.n, std::sin(0.5 * edge.angle), side.t);
     }
+    for (ShellTriangle &triangle : all_triangles)
+      for (int i = 0; i < 3; ++i)
+        triangle.lengths[i] = all_edges[triangle.edges[i]].length;
   }
 
   void

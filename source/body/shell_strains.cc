@@ -199,17 +199,61 @@ namespace Exemplar
     for (unsigned int i = 0; i < hinges.size(); ++i)
       last_angles[hinges[i].edge][hinges[i].kind]
           = hinges[i].rest + change(i, hinge_angle(i, positions));
+    for (unsigned int edge = 0; edge < mesh.n_slopes();
+         ++edge) // those that are no hinges now, but may be later
+    {
+      auto &angles = last_angles[edge];
+      if (held[edge])
+      {
+        angles[0] = angles[1] + angles[2] - angles_in_a_plane[1] - angles_in_a_plane[2];
+        angles[0] = angle_of_triangles(edge, positions);
+        continue;
+      }
+      const double slope = positions[3 * mesh.slope_node(edge)] / mesh.edges()[edge].length;
+      angles[1]          = angles_in_a_plane[1] + 0.5 * angles[0] + slope;
+      angles[2]          = angles_in_a_plane[2] + 0.5 * angles[0] - slope;
+    }
   }
 
-  MembraneStrain<double>
-  ShellStrains::membrane(const unsigned int triangle, const Vector &positions) const
+  std::vector<double>
+  ShellStrains::branches() const
   {
-    const ShellTriangle  &of = mesh.triangles()[triangle];
-    const Vector3<double> x0 = place_in(positions, of.nodes[0]);
-    const Vector3<double> u  = difference(place_in(positions, of.nodes[1]), x0),
-                          v  = difference(place_in(positions, of.nodes[2]), x0);
-    const auto &g            = of.gradients;
-    return { combine(g[1][0], u, g[2][0], v), combine(g[1][1], u, g[2][1], v) };
+    std::vector<double> result;
+    for (const ShellTriangle &triangle : mesh.triangles())
+    {
+      for (const unsigned int edge : triangle.edges)
+        result.push_back(last_angles[edge][0]);
+      for (unsigned int i = 0; i < 3; ++i)
+        result.push_back(last_angles[triangle.edges[i]][triangle.signs[i] > 0. ? 1 : 2]);
+    }
+    return result;
+  }
+
+  void
+  ShellStrains::set_branches(const std::vector<double> &angles)
+  {
+    if (angles.empty())
+      last_angles.assign(mesh.edges().size(), angles_in_a_plane);
+    for (std::size_t t = 0; 6 * t < angles.size(); ++t)
+    {
+      const ShellTriangle &triangle = mesh.triangles()[t];
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        auto &last                           = last_angles[triangle.edges[i]];
+        last[0]                              = angles[6 * t + i];
+        last[triangle.signs[i] > 0. ? 1 : 2] = angles[6 * t + 3 + i];
+      }
+    }
+  }
+
+  TriangleStrain<double>
+  ShellStrains::triangle(const unsigned int triangle, const Vector &positions) const
+  {
+    const ShellTriangle &of = mesh.triangles()[triangle];
+    return { mesh.kind(),
+             of,
+             { { place_in(positions, of.nodes[0]), place_in(positions, of.nodes[1]),
+                 place_in(positions, of.nodes[2]) } } };
   }
 
   std::array<double, 3>
@@ -229,35 +273,6 @@ namespace Exemplar
     return result;
   }
 
-  ShellStretch
-  ShellStrains::stretch(const unsigned int triangle,
-                        const unsigned int i,
-                        const Vector      &positions) const
-  {
-    const auto           &nodes = mesh.triangles()[triangle].nodes;
-    const Vector3<double> edge
-        = difference(place_in(positions, nodes[(i + 1) % 3]), place_in(positions, nodes[i]));
-    const double length = norm(edge);
-    return { times(1. / length, edge), length };
-  }
-
-  ShellStrain
-  ShellStrains::strain(const unsigned int            t,
-                       const Vector                 &positions,
-                       const MembraneStrain<double> &membrane,
-                       const std::array<double, 3>  &turns) const
-  {
-    const ShellTriangle     &triangle = mesh.triangles()[t];
-    const Symmetric2<double> of_plane = membrane.strain();
-    ShellStrain              result   = { { of_plane[0], of_plane[1], of_plane[2], 0., 0., 0. } };
-    for (unsigned int i = 0; i < 3 && mesh.kind() == ShellKind::hinges; ++i)
-      result[i] = stretch(t, i, positions).length / mesh.edges()[triangle.edges[i]].length - 1.;
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k)
-        result[3 + k] += turns[i] * triangle.bending[i][k];
-    return result;
-  }
-
   std::vector<double>
   ShellStrains::changes(const Vector &positions) const
   {
@@ -273,9 +288,64 @@ namespace Exemplar
     const std::vector<double> of_hinges = changes(positions);
     std::vector<ShellStrain>  result;
     for (unsigned int t = 0; t < mesh.triangles().size(); ++t)
-      result.push_back(
-          strain(t, positions, membrane(t, positions), turns_of(t, positions, of_hinges)));
+      result.push_back(triangle(t, positions).strain(turns_of(t, positions, of_hinges)));
     return result;
+  }
+
+  std::vector<ShellStrain>
+  ShellStrains::strain_changes(const Vector &positions, const Vector &along) const
+  {
+    std::vector<double> of_hinges(hinges.size(), 0.);
+    for (unsigned int h = 0; h < hinges.size(); ++h)
+    {
+      const HingeForm<double> form = hinge_angle(h, positions).gradient();
+      for (int i = 0; i < 4; ++i)
+        of_hinges[h] += dot(form[i], place_in(along, hinges[h].nodes[i]));
+    }
+    std::vector<ShellStrain> result;
+    for (unsigned int t = 0; t < mesh.triangles().size(); ++t)
+    {
+      const auto &nodes = mesh.triangles()[t].nodes;
+      result.push_back(triangle(t, positions)
+                           .change({ { place_in(along, nodes[0]), place_in(along, nodes[1]),
+                                       place_in(along, nodes[2]) } },
+                                   turns_of(t, along, of_hinges)));
+    }
+    return result;
+  }
+
+  void
+  ShellStrains::add_pulled_back(const Vector                   &positions,
+                                const std::vector<ShellStrain> &stresses,
+                                Vector                         &to) const
+  {
+    const auto add = [&to](const unsigned int node, const double factor, const Vector3<double> &of)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        to[3 * node + c] += factor * of[c];
+    };
+    std::vector<double> of_hinges(hinges.size(), 0.);
+    for (unsigned int t = 0; t < stresses.size(); ++t)
+    {
+      const auto at      = triangle(t, positions);
+      const auto forces  = at.forces(stresses[t]);
+      const auto moments = at.moments(stresses[t]);
+      for (int i = 0; i < 3; ++i)
+      {
+        add(mesh.triangles()[t].nodes[i], 1., forces[i]);
+        const ShellTurn &turn = turns_of_triangles[t][i];
+        if (turn.hinge >= 0)
+          of_hinges[turn.hinge] += turn.of_hinge * moments[i];
+        if (turn.slope >= 0)
+          to[turn.slope] += turn.of_slope * moments[i];
+      }
+    }
+    for (unsigned int h = 0; h < hinges.size(); ++h)
+    {
+      const HingeForm<double> form = hinge_angle(h, positions).gradient();
+      for (int i = 0; i < 4; ++i)
+        add(hinges[h].nodes[i], of_hinges[h], form[i]);
+    }
   }
 
   double

@@ -16,45 +16,6 @@ namespace Exemplar
 {
   namespace
   {
-    void
-    add_force(const unsigned int node, const double factor, const Vector3<double> &of, Vector &to)
-    {
-      for (unsigned int c = 0; c < 3; ++c)
-        to[3 * node + c] += factor * of[c];
-    }
-
-    ShellStrain
-    difference(ShellStrain a, const ShellStrain &b)
-    {
-      for (int k = 0; k < 6; ++k)
-        a[k] -= b[k];
-      return a;
-    }
-
-    double
-    norm_of_membrane(const ShellStrain &T)
-    {
-      return std::sqrt(T[0] * T[0] + T[1] * T[1] + 2. * T[2] * T[2]);
-    }
-
-    double
-    norm_of_bending(const ShellStrain &T)
-    {
-      return std::sqrt(T[3] * T[3] + T[4] * T[4] + 2. * T[5] * T[5]);
-    }
-
-    double
-    norm_in_plane(const std::array<double, 2> &g)
-    {
-      return std::sqrt(g[0] * g[0] + g[1] * g[1]);
-    }
-
-    double
-    norm_in_plane(const std::array<double, 3> &A)
-    {
-      return std::sqrt(A[0] * A[0] + A[1] * A[1] + 2. * A[2] * A[2]);
-    }
-
     /// The equivalent stress of a plane one.
     double
     von_mises(const double x, const double y, const double xy)
@@ -67,11 +28,12 @@ namespace Exemplar
       : parts(parts), strains(parts.mesh), volumes(parts.volumes,
                                                    parts.material.volume_stiffness(),
                                                    parts.examples,
-                                                   parts.targets_of_volumes),
-        triangles(parts.mesh.triangles().size())
+                                                   parts.targets_of_volumes)
   {
-    for (const ShellTriangle &triangle : parts.mesh.triangles())
-      frames.push_back(triangle.axes);
+    write_hinges();
+    for (unsigned int t = 0; t < parts.mesh.triangles().size(); ++t)
+      for (unsigned int k = 0; k < 9; ++k)
+        arrays.frames[batch_index(t, 9, k)] = parts.mesh.triangles()[t].axes[k / 3][k % 3];
     follow_parameters();
   }
 
@@ -81,6 +43,7 @@ namespace Exemplar
     elasticities.clear();
     for (unsigned int t = 0; t < parts.mesh.triangles().size(); ++t)
       elasticities.push_back(shell_elasticity(parts.material, t, parts.mesh.kind()));
+    write_triangles();
     volumes.set_stiffness(parts.material.volume_stiffness());
     estimate_rounding();
   }
@@ -103,9 +66,9 @@ namespace Exemplar
       double               greatest  = 0.,
              bending = 0.; // inverse heights, and derivatives of curvatures by positions
       for (unsigned int i = 0; i < 3; ++i)
-        greatest = std::max(greatest, norm_in_plane(triangle.gradients[i]));
+        greatest = std::max(greatest, scales_at_rest[t][i]);
       for (unsigned int i = 0; i < 3; ++i)
-        bending += norm_in_plane(triangle.bending[i]) * greatest;
+        bending += scales_at_rest[t][3 + i] * greatest;
       const double membrane_stress = stiffness * of_positions * greatest,
                    bending_stress  = stiffness * of_positions * bending;
       squares += triangle.volume()
@@ -114,7 +77,7 @@ namespace Exemplar
                             * (greatest * greatest + bending * bending);
       for (unsigned int i = 0; i < 3; ++i)
       {
-        const double gradient = norm_in_plane(triangle.gradients[i]);
+        const double gradient = scales_at_rest[t][i];
         const double force
             = triangle.volume() * std::hypot(membrane_stress * gradient, bending_stress * bending);
         forces[triangle.nodes[i]] += force * force;
@@ -150,13 +113,14 @@ namespace Exemplar
       return;
     damping = s;
     volumes.begin_step(s, past);
-    past_strains.assign(parts.mesh.triangles().size(), ShellStrain{});
+    arrays.past.resize(batched_size(parts.mesh.triangles().size(), n_shell_strains));
+    arrays.past.fill(0.);
     for (const WeightedPositions &positions : past)
     {
-      const std::vector<ShellStrain> found = strains.strains(*positions.positions);
-      for (std::size_t t = 0; t < found.size(); ++t)
-        for (int k = 0; k < 6; ++k)
-          past_strains[t][k] += positions.weight * found[t][k];
+      const std::vector<ShellStrain> then = strains.strains(*positions.positions);
+      for (std::size_t t = 0; t < then.size(); ++t)
+        for (unsigned int k = 0; k < n_shell_strains; ++k)
+          arrays.past[batch_index(t, n_shell_strains, k)] += positions.weight * then[t][k];
     }
   }
 
@@ -164,7 +128,7 @@ namespace Exemplar
   ShellBody::leave_step()
   {
     damping = 0.;
-    past_strains.clear();
+    arrays.past.clear();
     volumes.leave_step();
   }
 
@@ -172,7 +136,15 @@ namespace Exemplar
   ShellBody::advance_history(const Vector &positions)
   {
     strains.update_branches(positions);
-    return {};
+    write_branches();
+    return strains.branches();
+  }
+
+  void
+  ShellBody::set_history(const std::vector<double> &history)
+  {
+    strains.set_branches(history);
+    write_branches();
   }
 
   void
@@ -186,14 +158,14 @@ namespace Exemplar
   {
     const ShellMesh             &mesh = parts.mesh;
     std::vector<Matrix3<double>> sums(mesh.n_nodes(), Matrix3<double>{});
-    for (std::size_t t = 0; t < frames.size(); ++t)
+    for (std::size_t t = 0; t < mesh.triangles().size(); ++t)
     {
       const ShellTriangle &triangle = mesh.triangles()[t];
       Matrix3<double>      R{};
       for (int a = 0; a < 3; ++a)
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j)
-            R[i][j] += frames[t][a][i] * triangle.axes[a][j];
+            R[i][j] += arrays.frames[batch_index(t, 9, 3 * a + i)] * triangle.axes[a][j];
       for (const unsigned int node : triangle.nodes)
         sums[node] = combine(1., sums[node], triangle.area, R);
     }
@@ -207,165 +179,140 @@ namespace Exemplar
     }
   }
 
+  TriangleTask
+  ShellBody::triangle_task(const Vector              &positions,
+                           const std::vector<double> *weights,
+                           const bool                 with_frames)
+  {
+    return { parts.mesh.kind(),
+             parts.mesh.triangles().size(),
+             positions.begin(),
+             arrays.nodes.data(),
+             arrays.hinges.data(),
+             arrays.slopes.data(),
+             arrays.rest.data(),
+             arrays.changes.data(),
+             damping,
+             damping > 0. ? arrays.past.data() : nullptr,
+             parts.targets.arrays(),
+             weights == nullptr ? nullptr : weights->data(),
+             arrays.strains.data(),
+             arrays.targets.data(),
+             arrays.areas.data(),
+             with_frames ? arrays.frames.data() : nullptr,
+             arrays.found.data(),
+             arrays.products.data() };
+  }
+
+  template <typename Loop>
+  void
+  ShellBody::for_each_batch(const std::size_t n, const Loop &loop) const
+  {
+    for_each_part(parts.n_threads, batched_size(n, 1) / batch_size, parts.n_threads,
+                  [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
+                  { loop(begin, end); });
+  }
+
   void
   ShellBody::find_strains(const Vector &positions, const RotationUse rotations)
   {
-    const unsigned int  n = parts.n_threads;
-    std::vector<double> changes(hinges.size());
     volumes.find_changes(positions);
-    for_each_part(n, hinges.size(), n,
-                  [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
-                  {
-                    for (std::size_t i = begin; i < end; ++i)
-                    {
-                      const HingeAngle<double> angle = strains.hinge_angle(i, positions);
-                      hinges[i].gradient             = angle.gradient();
-                      changes[i]                     = strains.change(i, angle);
-                    }
-                  });
-    for_each_part(n, triangles.size(), n,
-                  [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
-                  {
-                    for (std::size_t t = begin; t < end; ++t)
-                    {
-                      TriangleState &state = triangles[t];
-                      state.membrane       = strains.membrane(t, positions);
-                      state.strain         = strains.strain(t, positions, state.membrane,
-                                                            strains.turns_of(t, positions, changes));
-                      if (rotations != RotationUse::keep)
-                        frames[t] = { { state.membrane.axis(0), state.membrane.axis(1),
-                                        state.membrane.normal() } };
-                    }
-                  });
+    const HingeTask of_hinges{ positions.begin(),         arrays.hinge_nodes.data(),
+                               arrays.rest_angles.data(), arrays.last_angles.data(),
+                               arrays.changes.data(),     arrays.forms.data(),
+                               arrays.lengths.data() };
+    for_each_batch(strains.get_hinges().size(), [&](const std::size_t begin, const std::size_t end)
+                   { shell_kernels().find_hinges(of_hinges, begin, end); });
+    const TriangleTask task = triangle_task(positions, nullptr, rotations != RotationUse::keep);
+    for_each_batch(task.n, [&](const std::size_t begin, const std::size_t end)
+                   { shell_kernels().find_strains(task, begin, end); });
   }
 
   void
-  ShellBody::find_stresses(const std::vector<double> &weights)
+  ShellBody::find_stresses(const Vector &positions, const std::vector<double> &weights)
   {
-    for (HingeState &hinge : hinges)
-      hinge.moment = hinge.moment_scale = 0.;
-    for (unsigned int t = 0; t < triangles.size(); ++t)
-    {
-      TriangleState         &state = triangles[t];
-      const ShellElasticity &C     = elasticities[t];
-      state.target                 = {};
-      parts.targets.add_blend(t, weights, state.target.data());
-      state.stress = C.stress(difference(state.strain, state.target));
-      state.driven = state.stress;
-      if (damping > 0.)
-      {
-        const ShellStrain of_damping = C.stress(difference(state.strain, past_strains[t]));
-        for (int k = 0; k < 6; ++k)
-          state.driven[k] += damping * of_damping[k];
-      }
-      const std::array<double, 3> m = moments(parts.mesh.triangles()[t], state.driven);
-      for (int i = 0; i < 3; ++i)
+    const TriangleTask task = triangle_task(positions, &weights, false);
+    for_each_batch(task.n,
+                   [&](const std::size_t begin, const std::size_t end)
+                   {
+                     shell_kernels().blend(task, begin, end);
+                     shell_kernels().find_forces(task, begin, end);
+                   });
+    moments.assign(strains.get_hinges().size(), 0.);
+    for (unsigned int t = 0; t < task.n; ++t)
+      for (unsigned int i = 0; i < 3; ++i)
         if (const ShellTurn &turn = strains.turns(t)[i]; turn.hinge >= 0)
-          hinges[turn.hinge].moment += turn.of_hinge * m[i];
-    }
+          moments[turn.hinge] += turn.of_hinge * found(t, TriangleResult::moments + i);
   }
 
-  std::array<double, 3>
-  ShellBody::moments(const ShellTriangle &triangle, const ShellStrain &stress) const
+  ShellStrain
+  ShellBody::numbers_of(const dealii::AlignedVector<double> &of, const unsigned int triangle)
   {
-    std::array<double, 3> result;
-    for (int i = 0; i < 3; ++i)
-    {
-      const auto &b = triangle.bending[i];
-      result[i] = triangle.volume() * (stress[3] * b[0] + stress[4] * b[1] + 2. * stress[5] * b[2]);
-    }
+    ShellStrain result;
+    for (unsigned int k = 0; k < n_shell_strains; ++k)
+      result[k] = of[batch_index(triangle, n_shell_strains, k)];
     return result;
   }
 
-  void
-  ShellBody::add_energies(const unsigned int t, ElasticSums &sums) const
+  ShellStrain
+  ShellBody::driven_stress(const unsigned int t) const
   {
-    const TriangleState   &state   = triangles[t];
-    const ShellElasticity &C       = elasticities[t];
-    const double           volume  = parts.mesh.triangles()[t].volume();
-    const ShellStrain      elastic = C.stress(state.strain), of_target = C.stress(state.target);
-    const double           scale
-        = std::sqrt(contract(elastic, elastic)) + std::sqrt(contract(of_target, of_target));
-    sums->energy_elastic += 0.5 * volume * contract(elastic, state.strain);
-    sums->energy += 0.5 * volume * contract(state.stress, difference(state.strain, state.target));
-    sums->stress_square += volume * scale * scale;
-    sums->min_det_F = min_or_nan(sums->min_det_F, state.membrane.area_ratio());
-    if (!(damping > 0.))
-      return;
-    const ShellStrain change = difference(state.strain, past_strains[t]);
-    sums->energy_damping += 0.5 * damping * volume * contract(C.stress(change), change);
+    const ShellStrain strain = numbers_of(arrays.strains, t),
+                      target = numbers_of(arrays.targets, t);
+    ShellStrain driven;
+    for (unsigned int k = 0; k < n_shell_strains; ++k)
+      driven[k] = strain[k] - target[k]
+                  + (damping > 0.
+                         ? damping * (strain[k] - arrays.past[batch_index(t, n_shell_strains, k)])
+                         : 0.);
+    return elasticities[t].stress(driven);
   }
 
-  std::array<Vector3<double>, 3>
-  ShellBody::membrane_forces(const unsigned int t, const Vector &positions) const
+  void
+  ShellBody::add_energies(ElasticSums &sums) const
   {
-    const ShellTriangle           &triangle = parts.mesh.triangles()[t];
-    const ShellStrain             &T        = triangles[t].driven;
-    std::array<Vector3<double>, 3> forces{};
-    if (parts.mesh.kind() == ShellKind::hinges)
+    for (unsigned int t = 0; t < parts.mesh.triangles().size(); ++t)
+    {
+      sums->energy_elastic += found(t, TriangleResult::energy_elastic);
+      sums->energy += found(t, TriangleResult::energy);
+      sums->energy_damping += found(t, TriangleResult::energy_damping);
+      sums->stress_square += found(t, TriangleResult::stress_square);
+      sums->min_det_F = min_or_nan(sums->min_det_F, arrays.areas[t]);
+    }
+  }
+
+  void
+  ShellBody::add_forces(ElasticSums &sums)
+  {
+    moment_scales.assign(moments.size(), 0.);
+    for (unsigned int t = 0; t < parts.mesh.triangles().size(); ++t)
+    {
+      const ShellTriangle &triangle = parts.mesh.triangles()[t];
+      const double         scale    = found(t, TriangleResult::scale),
+                   of_bending       = found(t, TriangleResult::bending_scale);
       for (unsigned int i = 0; i < 3; ++i)
       {
-        const double force
-            = (i == 2 ? 2. : 1.) * T[i] / parts.mesh.edges()[triangle.edges[i]].length;
-        const Vector3<double> direction = strains.stretch(t, i, positions).direction;
-        forces[i]                       = combine(1., forces[i], -force, direction);
-        forces[(i + 1) % 3]             = combine(1., forces[(i + 1) % 3], force, direction);
+        const unsigned int node = triangle.nodes[i];
+        for (unsigned int c = 0; c < 3; ++c)
+          sums->gradient[3 * node + c] += found(t, TriangleResult::forces + 3 * i + c);
+        sums->force_scale[node] += scale * scales_at_rest[t][i];
+        const ShellTurn &turn         = strains.turns(t)[i];
+        const double     moment_scale = of_bending * scales_at_rest[t][3 + i];
+        if (turn.hinge >= 0)
+          moment_scales[turn.hinge] += turn.of_hinge * moment_scale;
+        if (turn.slope < 0)
+          continue;
+        sums->gradient[turn.slope] += turn.of_slope * found(t, TriangleResult::moments + i);
+        sums->force_scale[turn.slope / 3] += std::abs(turn.of_slope) * moment_scale;
       }
-    else
-    {
-      const auto P = triangles[t].membrane.force({ { T[0], T[1], T[2] } });
-      for (unsigned int i = 0; i < 3; ++i)
-        forces[i] = combine(triangle.gradients[i][0], P[0], triangle.gradients[i][1], P[1]);
     }
-    return forces;
-  }
-
-  void
-  ShellBody::add_forces(const unsigned int t, const Vector &positions, ElasticSums &sums)
-  {
-    const ShellTriangle   &triangle = parts.mesh.triangles()[t];
-    const TriangleState   &state    = triangles[t];
-    const ShellElasticity &C        = elasticities[t];
-    // as the stresses of which the forces are differences
-    const auto scale = [&](double (*norm)(const ShellStrain &))
-    {
-      const double elastic = norm(C.stress(state.strain));
-      double       sum     = elastic + norm(C.stress(state.target));
-      if (damping > 0.)
-        sum += damping * (elastic + norm(C.stress(past_strains[t])));
-      return triangle.volume() * sum;
-    };
-    const ShellStrain &T           = state.driven;
-    const auto         membrane    = membrane_forces(t, positions);
-    const double       of_membrane = scale(norm_of_membrane), of_bending = scale(norm_of_bending);
-    const std::array<double, 3> m = moments(triangle, T);
-    for (int i = 0; i < 3; ++i)
-    {
-      const auto        &g    = triangle.gradients[i];
-      const unsigned int node = triangle.nodes[i];
-      add_force(node, triangle.volume(), membrane[i], sums->gradient);
-      sums->force_scale[node] += of_membrane * norm_in_plane(g);
-      const ShellTurn &turn         = strains.turns(t)[i];
-      const double     moment_scale = of_bending * norm_in_plane(triangle.bending[i]);
-      if (turn.hinge >= 0)
-        hinges[turn.hinge].moment_scale += turn.of_hinge * moment_scale;
-      if (turn.slope < 0)
-        continue;
-      sums->gradient[turn.slope] += turn.of_slope * m[i];
-      sums->force_scale[turn.slope / 3] += std::abs(turn.of_slope) * moment_scale;
-    }
-  }
-
-  void
-  ShellBody::add_hinge_forces(ElasticSums &sums) const
-  {
-    for (std::size_t h = 0; h < hinges.size(); ++h)
-      for (int i = 0; i < 4; ++i)
+    for (std::size_t h = 0; h < moments.size(); ++h)
+      for (unsigned int i = 0; i < 4; ++i)
       {
-        const unsigned int     node     = strains.get_hinges()[h].nodes[i];
-        const Vector3<double> &gradient = hinges[h].gradient[i];
-        add_force(node, hinges[h].moment, gradient, sums->gradient);
-        sums->force_scale[node] += hinges[h].moment_scale * norm(gradient);
+        const unsigned int node = strains.get_hinges()[h].nodes[i];
+        for (unsigned int c = 0; c < 3; ++c)
+          sums->gradient[3 * node + c] += moments[h] * arrays.forms[batch_index(h, 12, 3 * i + c)];
+        sums->force_scale[node] += moment_scales[h] * arrays.lengths[batch_index(h, 4, i)];
       }
   }
 
@@ -378,7 +325,7 @@ namespace Exemplar
   {
     if (linear_term == nullptr) // else they are known from it
       find_strains(positions, rotations);
-    find_stresses(weights);
+    find_stresses(positions, weights);
     const bool  with_weights = parts.weights.n_unknown() > 0 && linear_term == nullptr;
     ElasticSums own(std::move(result)); // for its memory
     own->gradient.reinit(positions.size());
@@ -388,19 +335,34 @@ namespace Exemplar
     own->energy_damping = own->energy_inelastic = 0.;
     own->inverted_cells = own->guarded_cells = 0;
     own->min_det_F                           = std::numeric_limits<double>::max();
-    for (unsigned int t = 0; t < triangles.size(); ++t)
-    {
-      add_energies(t, own);
-      add_forces(t, positions, own);
-      if (with_weights)
-        add_weight_products(t, triangles[t].stress, -1., own->weight_gradient);
-    }
-    add_hinge_forces(own);
+    add_energies(own);
+    add_forces(own);
+    if (with_weights)
+      add_weight_products(false, -1., own->weight_gradient);
     volumes.add(positions, weights, with_weights, own);
     result = complete(parts.fe_space.exchange(), std::move(own));
     add_weight_energy(parts.weights, parts.examples.norms(), weights, result);
     if (linear_term != nullptr)
       set_weight_gradient(parts.weights, weights, *linear_term, result);
+  }
+
+  void
+  ShellBody::add_weight_products(const bool           of_strain_alone,
+                                 const double         factor,
+                                 std::vector<double> &sums)
+  {
+    const std::size_t n = parts.targets.arrays().n;
+    arrays.products.resize(batched_size(parts.mesh.triangles().size(), n));
+    const TriangleTask task = triangle_task({}, nullptr, false);
+    for_each_batch(task.n, [&](const std::size_t begin, const std::size_t end)
+                   { shell_kernels().find_products(task, of_strain_alone, begin, end); });
+    for (unsigned int t = 0; t < task.n; ++t)
+      parts.targets.for_each_weight(
+          t,
+          [&](const unsigned int weight, const unsigned int i, const double share) {
+            sums[weight]
+                += factor * share * arrays.products[batch_index(t, n, i - task.examples.first)];
+          });
   }
 
   void
@@ -429,8 +391,7 @@ namespace Exemplar
   {
     find_strains(positions, rotations);
     std::vector<double> c(parts.examples.n_weights(), 0.);
-    for (unsigned int t = 0; t < triangles.size(); ++t)
-      add_weight_products(t, elasticities[t].stress(triangles[t].strain), 1., c);
+    add_weight_products(true, 1., c);
     volumes.add_weight_linear_term(c);
     parts.fe_space.exchange().sum(c);
     parts.weights.get_memory().add_linear_term(c);
@@ -441,18 +402,22 @@ namespace Exemplar
   ShellBody::cell_results(const Vector &positions, const std::vector<double> &weights)
   {
     find_strains(positions, RotationUse::keep);
-    find_stresses(weights);
+    find_stresses(positions, weights);
     const double outside = std::sqrt(3.); // the strain of a face by the scaled curvature
     CellResults  results;
-    for (unsigned int t = 0; t < triangles.size(); ++t)
+    for (unsigned int t = 0; t < parts.mesh.triangles().size(); ++t)
     {
-      const TriangleState &state = triangles[t];
-      const ShellStrain   &T     = state.stress;
-      const auto           face  = [&](const double z)
+      const ShellStrain strain = numbers_of(arrays.strains, t),
+                        target = numbers_of(arrays.targets, t);
+      ShellStrain beyond;
+      for (unsigned int k = 0; k < n_shell_strains; ++k)
+        beyond[k] = strain[k] - target[k];
+      const ShellStrain T    = elasticities[t].stress(beyond);
+      const auto        face = [&](const double z)
       { return von_mises(T[0] + z * T[3], T[1] + z * T[4], T[2] + z * T[5]); };
-      results.strain_energy_density.push_back(
-          0.5 * contract(elasticities[t].stress(state.strain), state.strain));
-      results.det_F.push_back(state.membrane.area_ratio());
+      results.strain_energy_density.push_back(0.5
+                                              * contract(elasticities[t].stress(strain), strain));
+      results.det_F.push_back(arrays.areas[t]);
       if (parts.mesh.kind() == ShellKind::plate)
         results.von_mises_stress.push_back(std::max(face(outside), face(-outside)));
     }
@@ -465,10 +430,7 @@ namespace Exemplar
     using dealii::MemoryConsumption::memory_consumption;
     return strains.memory_consumption() + volumes.memory_consumption()
            + memory_consumption(pattern->column_start) + memory_consumption(pattern->row)
-           + dofs.capacity() * sizeof(TriangleDofs) + hinges.capacity() * sizeof(HingeState)
-           + triangles.capacity() * sizeof(TriangleState)
-           + past_strains.capacity() * sizeof(ShellStrain)
-           + elasticities.capacity() * sizeof(ShellElasticity)
-           + frames.capacity() * sizeof(frames[0]);
+           + dofs.capacity() * sizeof(TriangleDofs) + memory_of_arrays()
+           + elasticities.capacity() * sizeof(ShellElasticity);
   }
 } // namespace Exemplar

@@ -17,7 +17,7 @@ namespace Exemplar
       return row * (row + 1) / 2 + column;
     }
 
-    /// The nodes that the strains of a triangle may depend on, whatever is held.
+    /// The nodes that the strains of a triangle may depend on with its unknowns sheared, whatever is held.
     std::vector<unsigned int>
     nodes_of(const ShellMesh &mesh, const ShellTriangle &triangle)
     {
@@ -26,9 +26,10 @@ namespace Exemplar
       {
         if (mesh.kind() == ShellKind::plate)
           nodes.push_back(mesh.slope_node(edge));
-        for (const unsigned int opposite : mesh.edges()[edge].opposite)
-          if (opposite != ShellEdge::none)
-            nodes.push_back(opposite);
+        else
+          for (const unsigned int opposite : mesh.edges()[edge].opposite)
+            if (opposite != ShellEdge::none)
+              nodes.push_back(opposite);
       }
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -79,7 +80,8 @@ namespace Exemplar
     for (unsigned int edge = 0; edge < mesh.n_slopes(); ++edge)
       held[edge] = parts.free_dofs.free_index(3 * mesh.slope_node(edge)) == FreeDofs::held;
     strains.set_held(held);
-    hinges.resize(strains.get_hinges().size());
+    write_hinges();
+    write_triangles();
     dofs.clear();
     for (unsigned int t = 0; t < mesh.triangles().size(); ++t)
       dofs.push_back(find_dofs(t));
@@ -103,7 +105,13 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
       if (const ShellTurn &turn = strains.turns(triangle)[i]; turn.hinge >= 0)
         for (int k = 0; k < 4; ++k)
-          result.hinges[i][k] = index_of_node(strains.get_hinges()[turn.hinge].nodes[k]);
+        {
+          const unsigned int node = strains.get_hinges()[turn.hinge].nodes[k];
+          if (!turn.is_sheared())
+            result.hinges[i][k] = index_of_node(node);
+          for (unsigned int c = 0; c < 3; ++c)
+            result.is_beside_held |= parts.free_dofs.free_index(3 * node + c) == FreeDofs::held;
+        }
     for (int i = 0; i < 3; ++i)
       if (const ShellTurn &turn = strains.turns(triangle)[i]; turn.slope >= 0)
       {
@@ -124,9 +132,10 @@ namespace Exemplar
   }
 
   void
-  ShellBody::find_strain_slopes(const unsigned int t,
-                                const Vector      &positions,
-                                TriangleTangent   &to) const
+  ShellBody::find_strain_slopes(const unsigned int            t,
+                                const TriangleStrain<double> &at,
+                                const Vector                 &positions,
+                                TriangleTangent              &to) const
   {
     const ShellTriangle &triangle = parts.mesh.triangles()[t];
     to.B.fill({});
@@ -135,12 +144,12 @@ namespace Exemplar
       Vector3<double> unit{};
       unit[p % 3]   = 1.;
       const auto &g = triangle.gradients[p / 3];
-      to.changes[p] = triangles[t].membrane.change(unit, g[0], g[1]);
+      to.changes[p] = at.membrane().change(unit, g[0], g[1]);
       for (int k = 0; k < 3; ++k)
         to.B[p][k] = to.changes[p].dU[k];
     }
     if (parts.mesh.kind() == ShellKind::hinges)
-      find_stretch_slopes(t, positions, to);
+      find_stretch_slopes(at, triangle, to);
     const auto add = [&](const int edge, const double turn, ShellStrain &strain)
     {
       for (int k = 0; k < 3; ++k)
@@ -149,9 +158,20 @@ namespace Exemplar
     for (int i = 0; i < 3; ++i)
     {
       const ShellTurn &turn = strains.turns(t)[i];
-      for (int k = 0; k < 4 && turn.hinge >= 0; ++k)
-        for (int c = 0; c < 3; ++c)
-          add(i, turn.of_hinge * hinges[turn.hinge].gradient[k][c], to.B[dofs[t].hinges[i][k] + c]);
+      if (turn.is_sheared())
+      {
+        const auto gradient = at.side(i).of_turn();
+        for (int k = 0; k < 3; ++k)
+          for (int c = 0; c < 3; ++c)
+            add(i, gradient[k][c], to.B[3 * ((i + k) % 3) + c]);
+      }
+      else if (turn.hinge >= 0)
+      {
+        const HingeForm<double> gradient = strains.hinge_angle(turn.hinge, positions).gradient();
+        for (int k = 0; k < 4; ++k)
+          for (int c = 0; c < 3; ++c)
+            add(i, turn.of_hinge * gradient[k][c], to.B[dofs[t].hinges[i][k] + c]);
+      }
       if (turn.slope >= 0)
         add(i, turn.of_slope, to.B[dofs[t].slopes[i]]);
     }
@@ -160,34 +180,34 @@ namespace Exemplar
   }
 
   void
-  ShellBody::find_stretch_slopes(const unsigned int t,
-                                 const Vector      &positions,
-                                 TriangleTangent   &to) const
+  ShellBody::find_stretch_slopes(const TriangleStrain<double> &at,
+                                 const ShellTriangle          &triangle,
+                                 TriangleTangent              &to) const
   {
     for (unsigned int i = 0; i < 3; ++i)
     {
-      const Vector3<double> direction = strains.stretch(t, i, positions).direction;
-      const double          rest = parts.mesh.edges()[parts.mesh.triangles()[t].edges[i]].length;
+      const Vector3<double> direction = at.stretch(i).direction;
       for (unsigned int node = 0; node < 3; ++node)
         for (unsigned int c = 0; c < 3; ++c)
-          to.B[3 * node + c][i] = node == i             ? -direction[c] / rest
-                                  : node == (i + 1) % 3 ? direction[c] / rest
+          to.B[3 * node + c][i] = node == i             ? -direction[c] / triangle.lengths[i]
+                                  : node == (i + 1) % 3 ? direction[c] / triangle.lengths[i]
                                                         : 0.;
     }
   }
 
   void
-  ShellBody::add_stretch_geometry(const unsigned int t,
-                                  const bool         convex,
-                                  const Vector      &positions,
-                                  TriangleTangent   &to) const
+  ShellBody::add_stretch_geometry(const unsigned int            t,
+                                  const TriangleStrain<double> &at,
+                                  const bool                    convex,
+                                  TriangleTangent              &to) const
   {
     const ShellTriangle &triangle = parts.mesh.triangles()[t];
+    const ShellStrain    T        = driven_stress(t);
     for (unsigned int i = 0; i < 3; ++i)
     {
-      const ShellStretch stretch = strains.stretch(t, i, positions);
-      const double       factor  = (i == 2 ? 2. : 1.) * triangle.volume() * triangles[t].driven[i]
-                            / (parts.mesh.edges()[triangle.edges[i]].length * stretch.length);
+      const EdgeStretch<double> stretch = at.stretch(i);
+      const double              factor
+          = (i == 2 ? 2. : 1.) * triangle.volume() * T[i] / (triangle.lengths[i] * stretch.length);
       if (convex && factor < 0.)
         continue;
       const unsigned int begin = 3 * i, end = 3 * ((i + 1) % 3);
@@ -207,13 +227,14 @@ namespace Exemplar
   }
 
   void
-  ShellBody::add_membrane_geometry(const unsigned int t,
-                                   const bool         convex,
-                                   TriangleTangent   &to) const
+  ShellBody::add_membrane_geometry(const unsigned int            t,
+                                   const TriangleStrain<double> &at,
+                                   const bool                    convex,
+                                   TriangleTangent              &to) const
   {
     const ShellTriangle           &triangle = parts.mesh.triangles()[t];
-    const MembraneStrain<double>  &membrane = triangles[t].membrane;
-    const ShellStrain             &T        = triangles[t].driven;
+    const MembraneStrain<double>  &membrane = at.membrane();
+    const ShellStrain              T        = driven_stress(t);
     const double                   volume   = triangle.volume();
     const MembraneGeometry<double> geometry
         = membrane.geometry({ { volume * T[0], volume * T[1], volume * T[2] } }, convex);
@@ -235,25 +256,41 @@ namespace Exemplar
   }
 
   void
+  ShellBody::add_turn_geometry(const unsigned int            t,
+                               const int                     edge,
+                               const TriangleStrain<double> &at,
+                               TriangleTangent              &to) const
+  {
+    for (const SideProduct<double> &of : at.side(edge).second_of_turn())
+    {
+      std::array<double, 9> a, b;
+      for (int k = 0; k < 9; ++k)
+      {
+        const int place = 3 * ((edge + k / 3) % 3) + k % 3;
+        a[place]        = moments[strains.turns(t)[edge].hinge] * of.factor * of.a[k / 3][k % 3];
+        b[place]        = of.b[k / 3][k % 3];
+      }
+      for (unsigned int p = 0; p < 9; ++p)
+        for (unsigned int q = 0; q <= p; ++q)
+          to.entries[lower(p, q)] += a[p] * b[q] + b[p] * a[q];
+    }
+  }
+
+  void
   ShellBody::add_hinge_geometry(const unsigned int t,
+                                const int          edge,
                                 const Vector      &positions,
                                 TriangleTangent   &to) const
   {
-    for (int edge = 0; edge < 3; ++edge)
-    {
-      const int hinge = strains.turns(t)[edge].hinge;
-      if (hinge < 0 || strains.get_hinges()[hinge].owner != t)
-        continue;
-      const auto &at = dofs[t].hinges[edge];
-      for (const HingeProduct<double> &of : strains.hinge_angle(hinge, positions).hessian())
-        for (unsigned int p = 0; p < 12; ++p)
-          for (unsigned int q = 0; q < 12; ++q)
-            if (const unsigned int row = at[p / 3] + p % 3, column = at[q / 3] + q % 3;
-                row >= column)
-              to.entries[lower(row, column)] += hinges[hinge].moment * of.factor
-                                                * (of.a[p / 3][p % 3] * of.b[q / 3][q % 3]
-                                                   + of.b[p / 3][p % 3] * of.a[q / 3][q % 3]);
-    }
+    const int   hinge = strains.turns(t)[edge].hinge;
+    const auto &at    = dofs[t].hinges[edge];
+    for (const HingeProduct<double> &of : strains.hinge_angle(hinge, positions).hessian())
+      for (unsigned int p = 0; p < 12; ++p)
+        for (unsigned int q = 0; q < 12; ++q)
+          if (const unsigned int row = at[p / 3] + p % 3, column = at[q / 3] + q % 3; row >= column)
+            to.entries[lower(row, column)] += moments[hinge] * of.factor
+                                              * (of.a[p / 3][p % 3] * of.b[q / 3][q % 3]
+                                                 + of.b[p / 3][p % 3] * of.a[q / 3][q % 3]);
   }
 
   void
@@ -262,18 +299,24 @@ namespace Exemplar
                           const Vector      &positions,
                           TriangleTangent   &to) const
   {
-    const bool   convex = kind == Tangent::convex;
-    const double factor = (1. + damping) * parts.mesh.triangles()[t].volume();
-    find_strain_slopes(t, positions, to);
+    const bool                   convex = kind == Tangent::convex;
+    const double                 factor = (1. + damping) * parts.mesh.triangles()[t].volume();
+    const TriangleStrain<double> at     = strains.triangle(t, positions);
+    find_strain_slopes(t, at, positions, to);
     for (unsigned int p = 0; p < dofs[t].n; ++p)
       for (unsigned int q = 0; q <= p; ++q)
-        to.entries[lower(p, q)] = factor * contract(to.CB[p], to.B[q]);
+        to.entries[lower(p, q)]
+            = factor * (p < 9 ? contract(to.CB[p], to.B[q]) : contract_bending(to.CB[p], to.B[q]));
     if (parts.mesh.kind() == ShellKind::hinges)
-      add_stretch_geometry(t, convex, positions, to);
+      add_stretch_geometry(t, at, convex, to);
     else
-      add_membrane_geometry(t, convex, to);
-    if (!convex) // what moments have that is positive makes steps shorter, and twice as many
-      add_hinge_geometry(t, positions, to);
+      add_membrane_geometry(t, at, convex, to);
+    // what moments have that is positive makes steps shorter, and twice as many
+    for (int edge = 0; edge < 3 && !convex; ++edge)
+      if (const ShellTurn &turn = strains.turns(t)[edge]; turn.is_sheared())
+        add_turn_geometry(t, edge, at, to);
+      else if (turn.hinge >= 0 && strains.get_hinges()[turn.hinge].owner == t)
+        add_hinge_geometry(t, edge, positions, to);
   }
 
   void
@@ -305,14 +348,14 @@ namespace Exemplar
   {
     constexpr std::size_t at_once = 256;
     find_strains(positions, RotationUse::keep);
-    find_stresses(weights);
+    find_stresses(positions, weights);
     columns.clear();
     if (parts.weights.n_unknown() > 0)
       columns.assign(parts.free_dofs.local_list().size() * parts.examples.n_strained_weights(), 0.);
-    std::vector<TriangleTangent> tangents(std::min(at_once, triangles.size()));
-    for (std::size_t first = 0; first < triangles.size(); first += at_once)
+    std::vector<TriangleTangent> tangents(std::min(at_once, dofs.size()));
+    for (std::size_t first = 0; first < dofs.size(); first += at_once)
     {
-      const std::size_t n = std::min(at_once, triangles.size() - first);
+      const std::size_t n = std::min(at_once, dofs.size() - first);
       for_each_part(parts.n_threads, n, parts.n_threads,
                     [&](std::size_t /*part*/, const std::size_t begin, const std::size_t end)
                     {
@@ -329,9 +372,61 @@ namespace Exemplar
           add_columns(first + i, tangents[i], columns);
       }
     }
+    UnknownShear shear;
+    find_shear(positions, shear);
+    const std::size_t n_rows = parts.free_dofs.local_list().size();
+    for (std::size_t begin = 0; begin < columns.size(); begin += n_rows)
+      shear.forces_from_sheared(columns.data() + begin);
     if (!volumes.empty())
       volumes.add_tangent(kind, positions, weights, *pattern, parts.free_dofs, matrix_values,
                           columns, *products);
+  }
+
+  template <typename IndexOf>
+  UnknownShear
+  ShellBody::shear_by(const Vector &positions, const IndexOf &index_of) const
+  {
+    UnknownShear shear;
+    shear.others.reserve(12 * parts.mesh.n_slopes());
+    shear.factors.reserve(12 * parts.mesh.n_slopes());
+    for (std::size_t h = 0; h < strains.get_hinges().size() && parts.mesh.n_slopes() > 0; ++h)
+    {
+      const ShellHinge &hinge = strains.get_hinges()[h];
+      if (hinge.kind != 0)
+        continue; // of a slope that is held
+      const HingeAngle<double> angle = strains.hinge_angle(h, positions);
+      const HingeForm<double> first = angle.gradient_of_side(0), second = angle.gradient_of_side(1);
+      const double            half_length = 0.5 * parts.mesh.edges()[hinge.edge].length;
+      for (int i = 0; i < 4; ++i)
+        for (int c = 0; c < 3; ++c)
+          if (const int other = index_of(3 * hinge.nodes[i] + c); other != FreeDofs::held)
+          {
+            shear.others.push_back(other);
+            shear.factors.push_back(half_length * (second[i][c] - first[i][c]));
+          }
+      shear.sheared.push_back(index_of(3 * parts.mesh.slope_node(hinge.edge)));
+      shear.ends.push_back(shear.others.size());
+    }
+    return shear;
+  }
+
+  void
+  ShellBody::find_shear(const Vector &positions, UnknownShear &shear) const
+  {
+    shear = shear_by(positions,
+                     [&](const unsigned int dof) { return parts.free_dofs.free_index(dof); });
+  }
+
+  void
+  ShellBody::add_product(const unsigned int     t,
+                         const TriangleTangent &tangent,
+                         const Vector          &displacement,
+                         Vector                &gradient) const
+  {
+    for (unsigned int p = 0; p < dofs[t].n; ++p)
+      for (unsigned int q = 0; q < dofs[t].n; ++q)
+        gradient[dofs[t].dofs[q]] += tangent.entries[lower(std::max(p, q), std::min(p, q))]
+                                     * displacement[dofs[t].dofs[p]];
   }
 
   void
@@ -342,28 +437,27 @@ namespace Exemplar
                           ElasticEvaluation         &result)
   {
     find_strains(positions, RotationUse::keep);
-    find_stresses(weights);
-    Vector              gradient(positions.size());
+    find_stresses(positions, weights);
+    const UnknownShear shear
+        = shear_by(positions, [](const unsigned int dof) { return static_cast<int>(dof); });
+    Vector moved = displacement, gradient(positions.size());
+    shear.to_sheared(moved.begin());
     std::vector<double> by_weights(result.weight_gradient.size(), 0.);
     TriangleTangent     tangent;
-    for (unsigned int t = 0; t < triangles.size(); ++t)
+    for (unsigned int t = 0; t < dofs.size(); ++t)
     {
       if (!dofs[t].is_beside_held)
         continue;
       find_tangent(t, kind, positions, tangent);
+      add_product(t, tangent, moved, gradient);
       ShellStrain stress{};
       for (unsigned int p = 0; p < dofs[t].n; ++p)
-      {
-        const double moved = displacement[dofs[t].dofs[p]];
         for (int k = 0; k < 6; ++k)
-          stress[k] += moved * tangent.CB[p][k];
-        for (unsigned int q = 0; q < dofs[t].n; ++q)
-          gradient[dofs[t].dofs[q]]
-              += tangent.entries[lower(std::max(p, q), std::min(p, q))] * moved;
-      }
+          stress[k] += moved[dofs[t].dofs[p]] * tangent.CB[p][k];
       if (!by_weights.empty())
         add_weight_products(t, stress, -1., by_weights);
     }
+    shear.forces_from_sheared(gradient.begin());
     volumes.add_response(kind, displacement, positions, weights, gradient, by_weights);
     const Exchange &exchange = parts.fe_space.exchange();
     exchange.assemble(gradient.begin(), 3);
@@ -380,15 +474,18 @@ namespace Exemplar
                                 Vector                    &gradient)
   {
     find_strains(positions, RotationUse::keep);
-    find_stresses(weights);
+    find_stresses(positions, weights);
+    const UnknownShear shear
+        = shear_by(positions, [](const unsigned int dof) { return static_cast<int>(dof); });
+    Vector moved = displacement, response(positions.size());
+    shear.to_sheared(moved.begin());
     TriangleTangent tangent;
-    for (unsigned int t = 0; t < triangles.size(); ++t)
+    for (unsigned int t = 0; t < dofs.size(); ++t)
     {
       find_tangent(t, Tangent::exact, positions, tangent);
-      for (unsigned int p = 0; p < dofs[t].n; ++p)
-        for (unsigned int q = 0; q < dofs[t].n; ++q)
-          gradient[dofs[t].dofs[q]] += tangent.entries[lower(std::max(p, q), std::min(p, q))]
-                                       * displacement[dofs[t].dofs[p]];
+      add_product(t, tangent, moved, response);
     }
+    shear.forces_from_sheared(response.begin());
+    gradient += response;
   }
 } // namespace Exemplar

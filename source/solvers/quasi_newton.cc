@@ -15,11 +15,15 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr unsigned int max_iterations         = 7;  ///< with one metric in a step
+    constexpr unsigned int max_iterations = 7; ///< with one metric in a step
+    constexpr unsigned int min_iterations
+        = 2; ///< the same, of bodies that do not keep their tangent
     constexpr unsigned int max_contact_iterations = 14; ///< the same where gaps matter
     constexpr unsigned int max_metrics            = 2;  ///< that a step may ask for
-    constexpr unsigned int max_changes            = 30; ///< of terms in a step
-    constexpr unsigned int max_halvings           = 5;
+    constexpr unsigned int max_short_metrics
+        = 8; ///< the same, of bodies that do not keep their tangent
+    constexpr unsigned int max_changes  = 30; ///< of terms in a step
+    constexpr unsigned int max_halvings = 5;
     /// So often what terms lag is renewed before a step is solved. Without a bound it jumps to and fro as the positions do,
     /// and neither settles.
     constexpr unsigned int n_early_changes = 3;
@@ -179,9 +183,32 @@ namespace Exemplar
         history.couplings != potential.get_tangent().couplings_of_terms());
   }
 
+  unsigned int
+  QuasiNewton::most_iterations() const
+  {
+    return potential.get_body().keeps_its_tangent()
+               ? max_iterations
+               : std::clamp<unsigned int>(std::lround(metric.cost_in_iterations()), min_iterations,
+                                          max_iterations);
+  }
+
+  bool
+  QuasiNewton::should_have_another(const double residual, const double gradient_ratio) const
+  {
+    if (potential.get_body().keeps_its_tangent() || history.steps == 0 || in_contact
+        || !(residual > parameters.step_tolerance))
+      return false;
+    return !(gradient_ratio < 1.)
+           || std::log(parameters.step_tolerance / residual)
+                  < metric.cost_in_iterations() * std::log(gradient_ratio);
+  }
+
   bool
   QuasiNewton::is_slow() const
   {
+    if (!potential.get_body().keeps_its_tangent() && !history.last_in_contact
+        && history.last_iterations > most_iterations())
+      return true;
     const bool         touched = history.last_in_contact;
     const unsigned int iterations
         = touched ? history.contact_iterations : history.iterations - history.contact_iterations;
@@ -408,7 +435,9 @@ namespace Exemplar
     const FreeDofs      &free_dofs    = potential.get_free_dofs();
     std::vector<double> &old_gradient = memory.old_gradient;
     Iteration           &iteration    = memory.iteration;
-    unsigned int         n_metrics = 0, n_with_metric = 0, n_changes = 0;
+    const unsigned int   most_metrics
+        = potential.get_body().keeps_its_tangent() ? max_metrics : max_short_metrics;
+    unsigned int n_metrics = 0, n_with_metric = 0, n_changes = 0;
     iteration.last_length = iteration.last_contraction = 0.;
     contact.forget_response();
     measure(trial, evaluation, iteration);
@@ -434,12 +463,12 @@ namespace Exemplar
         turn_metric();
       memory.old_weights       = trial.weights;
       const double       slope = find_step(trial, evaluation, iteration);
-      const unsigned int most  = in_contact ? max_contact_iterations : max_iterations;
+      const unsigned int most  = in_contact ? max_contact_iterations : most_iterations();
       const bool         is_descent
           = n_with_metric < most && slope < 0. && take_step(slope, trial, evaluation, report);
       if (!is_descent)
       {
-        if (++n_metrics > max_metrics)
+        if (++n_metrics > most_metrics)
           return;
         if (n_with_metric < most) // the line search gave up, and went back
         {
@@ -465,6 +494,8 @@ namespace Exemplar
             iteration);
       report_iteration(potential, evaluation, trial, report);
       is_near = has_arrived(accepted, trial, report, ratio, iteration);
+      if (!is_near && should_have_another(report.residual, ratio))
+        n_with_metric = std::max(max_iterations, max_contact_iterations);
     }
     report.status = SolveStatus::converged;
   }

@@ -126,6 +126,8 @@ namespace Exemplar
     StepClock::Scope scope(clock, Phase::assemble);
     potential.get_tangent().assemble(positions, weights, convexity, assembled.matrix_values(),
                                      assembled.columns(), assembled.outer_products(), terms);
+    if (UnknownShear *const shear = assembled.shear())
+      potential.get_body().find_shear(positions, *shear);
     potential.get_free_dofs().assemble_columns(assembled.columns(),
                                                assembled.weight_form().coupled.size());
   }

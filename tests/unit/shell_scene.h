@@ -92,6 +92,7 @@ namespace Exemplar::Testing
     {
       std::vector<double> values, columns;
       OuterProducts       products;
+      UnknownShear        shear;
     };
 
     Assembled
@@ -100,6 +101,7 @@ namespace Exemplar::Testing
       Assembled result;
       result.values.assign(pattern.n_values(), 0.);
       body->assemble_tangent(kind, x, w, result.values, result.columns, &result.products);
+      body->find_shear(x, result.shear);
       return result;
     }
 
@@ -110,6 +112,14 @@ namespace Exemplar::Testing
       for (unsigned int j = 0; j < pattern.n(); ++j)
         for (int entry = pattern.column_start[j]; entry < pattern.column_start[j + 1]; ++entry)
           A(j, pattern.row[entry]) = A(pattern.row[entry], j) = of.values[entry];
+      for (int side = 0; side < 2; ++side) // by degrees of freedom
+      {
+        for (unsigned int i = 0; i < A.m(); ++i)
+          of.shear.forces_from_sheared(&A(i, 0));
+        dealii::FullMatrix<double> transposed(A.n(), A.m());
+        transposed.copy_transposed(A);
+        A = transposed;
+      }
       for (std::size_t k = 0; k < of.products.size(); ++k)
       {
         std::vector<double> u(pattern.n(), 0.);
@@ -127,11 +137,12 @@ namespace Exemplar::Testing
 
     /// Solve K u = f for fields by degree of freedom, zero where held.
     Vector
-    solve(const std::vector<double> &values, const Vector &f) const
+    solve(const Assembled &matrix, const Vector &f) const
     {
-      const auto solver = make_cholesky_operator();
+      const auto solver = make_sheared_operator(make_cholesky_operator(), pattern.n());
       solver->reinit(pattern);
-      solver->values() = values;
+      solver->values() = matrix.values;
+      *solver->shear() = matrix.shear;
       solver->factorize(f);
       std::vector<double> column;
       free_dofs.gather(f, column);

@@ -63,6 +63,14 @@ namespace Exemplar
       return nullptr;
     }
 
+    /// The shear of the unknowns, as SpdOperator::shear(). Columns and vectors are by the unknowns of A. Null with UMFPACK, too, which no
+    /// body that shears them takes: it has no fixed point.
+    virtual UnknownShear *
+    shear()
+    {
+      return nullptr;
+    }
+
     /// The non-zero columns of G, one after the other, to be overwritten before factorize() and not
     /// changed until the next one.
     std::vector<double> &

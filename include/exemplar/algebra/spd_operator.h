@@ -5,6 +5,7 @@
 #include <exemplar/algebra/free_dofs.h>
 #include <exemplar/algebra/kept_inverse.h>
 #include <exemplar/algebra/outer_products.h>
+#include <exemplar/algebra/unknown_shear.h>
 #include <exemplar/algebra/vector.h>
 #include <exemplar/base/errors.h>
 
@@ -101,6 +102,14 @@ namespace Exemplar
       return nullptr;
     }
 
+    /// The shear T of the unknowns, to be overwritten with the values, which are those of T^T A T for the matrix A that solve()
+    /// inverts. Null: they are those of A itself.
+    virtual UnknownShear *
+    shear()
+    {
+      return nullptr;
+    }
+
     /// Prepare for solve() with the current values. `positions` [m], by degree of freedom, are
     /// those of the state at which the matrix is the tangent: multigrid takes the rigid modes from
     /// them. Throws SolverFailure if the matrix is not positive definite.
@@ -173,6 +182,11 @@ namespace Exemplar
   /// products is not positive definite. `free_dofs` must outlive the operator.
   std::unique_ptr<SpdOperator>
   make_low_rank_operator(std::unique_ptr<SpdOperator> matrix, const FreeDofs &free_dofs);
+
+  /// A matrix A of n unknowns by the operator of T^T A T, see UnknownShear. entries() of its kept inverse may be asked of unknowns that stay
+  /// alone.
+  std::unique_ptr<SpdOperator>
+  make_sheared_operator(std::unique_ptr<SpdOperator> matrix, std::size_t n);
 
   /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned with
   /// multigrid on the levels of ML's smoothed aggregation, whose coarse spaces hold the six rigid

@@ -97,13 +97,18 @@ namespace Exemplar
     std::vector<dealii::Point<3>>
     complete(std::vector<dealii::Point<3>> places, const std::string &key) const;
 
-    /// Positions with the tips of all normals of a shell, instead of the slopes of edges where these are not held.
+    /// Positions with the tips of all normals of a shell, instead of the slopes of edges where these are not held. Angles are on
+    /// these branches, see ShellStrains::branches().
     Vector
-    with_tips(Vector positions, const std::vector<bool> &is_held) const;
+    with_tips(Vector                     positions,
+              const std::vector<bool>   &is_held,
+              const std::vector<double> &branches = {}) const;
 
     /// Positions with slopes instead of the tips of normals, at edges where they are not held.
     Vector
-    with_slopes(Vector positions, const std::vector<bool> &is_held) const;
+    with_slopes(Vector                     positions,
+                const std::vector<bool>   &is_held,
+                const std::vector<double> &branches = {}) const;
 
     /// The strains of a shell's triangles at positions with the tips of all normals.
     std::vector<ShellStrain>

@@ -3,7 +3,7 @@
 #define exemplar_shell_mesh_h
 
 #include <exemplar/algebra/vector.h>
-#include <exemplar/kernels/vector_product.h>
+#include <exemplar/kernels/triangle_strain.h>
 
 #include <array>
 #include <vector>
@@ -17,13 +17,6 @@ namespace Exemplar
     const double *x = positions.begin() + 3 * node;
     return { { x[0], x[1], x[2] } };
   }
-
-  /// What the strains of a shell are, see ShellStrains.
-  enum class ShellKind
-  {
-    plate,
-    hinges
-  };
 
   /// An edge of a shell at rest. It runs from begin to end as its first triangle has it, whose third
   /// vertex is opposite[0]; the second triangle, if there is one, runs from end to begin.
@@ -47,21 +40,15 @@ namespace Exemplar
   };
 
   /// A triangle of a shell at rest. Its frame has the first axis along the first edge, and the second
-  /// in its plane. Edge i runs from vertex i to vertex i + 1.
-  struct ShellTriangle
+  /// in its plane.
+  struct ShellTriangle : TriangleShape<double>
   {
     std::array<unsigned int, 3> nodes;
     std::array<unsigned int, 3> edges;
     std::array<double, 3>       signs; ///< 1 for the first triangle of an edge, -1 for the second
-    double                      thickness = 0.;     ///< [m]
-    double                      area      = 0.;     ///< [m^2]
-    std::array<Vector3<double>, 3>       axes;      ///< of the frame; the third is the normal
-    std::array<std::array<double, 2>, 3> gradients; ///< of the shape functions, in the frame [1/m]
-
-    /// What the turn [rad] of the normal at edge i adds to the three curvatures, which are scaled by
-    /// thickness/12^(1/2). They are xx, yy, xy of a plate: l_i/A t_i t_i^T with the unit normal t_i of
-    /// the edge. With hinges the i-th is l_i/(A + A') times the angle at edge i, beyond which A' is.
-    std::array<std::array<double, 3>, 3> bending;
+    double                      thickness = 0.; ///< [m]
+    double                      area      = 0.; ///< [m^2]
+    std::array<Vector3<double>, 3> axes;        ///< of the frame; the third is the normal
 
     /// [m^3]
     double

@@ -4,7 +4,6 @@
 
 #include <exemplar/body/shell_mesh.h>
 #include <exemplar/kernels/hinge_angle.h>
-#include <exemplar/kernels/membrane_strain.h>
 
 #include <array>
 #include <functional>
@@ -12,60 +11,14 @@
 
 namespace Exemplar
 {
-  /// The strains of a triangle [-]: membrane xx, yy, xy of U - I, then curvature xx, yy, xy times
-  /// thickness/12^(1/2), in the triangle's own frame. With hinges they are the relative changes of length
-  /// of the three edges and the changes of their angles, which ShellTriangle::bending scales. A product of two
-  /// lists counts the last one of each three twice, see shell_strain_order().
-  constexpr unsigned int n_shell_strains = 6;
-  using ShellStrain                      = std::array<double, n_shell_strains>;
+  using ShellStrain     = ShellNumbers<double>;
+  using ShellElasticity = TriangleElasticity<double>;
 
   /// TargetSpace::order for strains.
   inline std::vector<unsigned int>
   shell_strain_order()
   {
     return { 0, 2, 2, 1, 3, 5, 5, 4 };
-  }
-
-  /// The elasticity of a triangle in plane stress: lambda tr(a) I + 2 mu a of the membrane's part and
-  /// alike of the curvature's [Pa]. With hinges each number has a stiffness of its own: E of lengths and
-  /// E/(1 - nu^2) of angles. With that a plane of equilateral triangles has Young's modulus E and the flexural rigidity of
-  /// a plate (Seung and Nelson 1988).
-  struct ShellElasticity
-  {
-    double    lambda = 0., mu = 0.;
-    ShellKind kind = ShellKind::plate;
-
-    /// A solid with these constants of Lamé has it where it is free to change its thickness.
-    static ShellElasticity
-    of_solid(const double lambda, const double mu, const ShellKind kind = ShellKind::plate)
-    {
-      return { 2. * lambda * mu / (lambda + 2. * mu), mu, kind };
-    }
-
-    /// T with T.b = a:C:b.
-    ShellStrain
-    stress(const ShellStrain &a) const
-    {
-      if (kind == ShellKind::hinges)
-      {
-        const double angle  = lambda + 2. * mu; // E/(1 - nu^2)
-        const double length = 4. * mu * (lambda + mu) / angle;
-        // the last ones count twice
-        return { { length * a[0], length * a[1], 0.5 * length * a[2], angle * a[3], angle * a[4],
-                   0.5 * angle * a[5] } };
-      }
-      const double membrane = lambda * (a[0] + a[1]), bending = lambda * (a[3] + a[4]);
-      return { { membrane + 2. * mu * a[0], membrane + 2. * mu * a[1], 2. * mu * a[2],
-                 bending + 2. * mu * a[3], bending + 2. * mu * a[4], 2. * mu * a[5] } };
-    }
-  };
-
-  /// T.b, in which the last one of each three counts twice.
-  inline double
-  contract(const ShellStrain &T, const ShellStrain &b)
-  {
-    return T[0] * b[0] + T[1] * b[1] + 2. * T[2] * b[2] + T[3] * b[3] + T[4] * b[4]
-           + 2. * T[5] * b[5];
   }
 
   /// Four nodes of which HingeAngle is a strain.
@@ -85,13 +38,14 @@ namespace Exemplar
     double of_hinge = 0.;
     int    slope    = -1; ///< degree of freedom; -1: none
     double of_slope = 0.; ///< [1/m]
-  };
 
-  /// An edge of a triangle as it is.
-  struct ShellStretch
-  {
-    Vector3<double> direction; ///< from its vertex i to the next one
-    double          length;    ///< [m]
+    /// Whether it is by both: then with the turn of the normal in space as the unknown, instead of the slope, it depends on the
+    /// triangle's own vertices alone, of which it has the whole angle. See UnknownShear.
+    bool
+    is_sheared() const
+    {
+      return hinge >= 0 && slope >= 0;
+    }
   };
 
   /// The strains of a shell. Those of a plate are by Grinspun, Gingold, Reisman and Zorin (2006). The normal at the middle of
@@ -146,29 +100,46 @@ namespace Exemplar
     void
     update_branches(const Vector &positions);
 
-    MembraneStrain<double>
-    membrane(unsigned int triangle, const Vector &positions) const;
+    /// The angles of the last state: for each triangle those with the triangles beyond its edges, then those with the
+    /// directors of these. For State::history.
+    std::vector<double>
+    branches() const;
 
-    /// Turns [rad] of the normals at the three edges, from the changes of all hinges.
+    /// Let these be the angles of the last state; empty: as at first.
+    void
+    set_branches(const std::vector<double> &angles);
+
+    /// Of a hinge, in the last state.
+    double
+    last_angle(const unsigned int hinge) const
+    {
+      return last_angles[hinges[hinge].edge][hinges[hinge].kind];
+    }
+
+    /// A triangle with its vertices where they are.
+    TriangleStrain<double>
+    triangle(unsigned int triangle, const Vector &positions) const;
+
+    /// Turns [rad] of the normals at the three edges of a triangle, from the changes of all hinges.
     std::array<double, 3>
     turns_of(unsigned int               triangle,
              const Vector              &positions,
              const std::vector<double> &changes) const;
 
-    /// Edge i of a triangle.
-    ShellStretch
-    stretch(unsigned int triangle, unsigned int i, const Vector &positions) const;
-
-    /// From the membrane and the turns of a triangle.
-    ShellStrain
-    strain(unsigned int                  triangle,
-           const Vector                 &positions,
-           const MembraneStrain<double> &membrane,
-           const std::array<double, 3>  &turns) const;
-
     /// Strains of all triangles.
     std::vector<ShellStrain>
     strains(const Vector &positions) const;
+
+    /// How they change along changes of the positions.
+    std::vector<ShellStrain>
+    strain_changes(const Vector &positions, const Vector &along) const;
+
+    /// Chain rule: add the derivatives by positions of a function of the strains there, with T.b = contract(T, b) its
+    /// change by strains b of a triangle.
+    void
+    add_pulled_back(const Vector                   &positions,
+                    const std::vector<ShellStrain> &stresses,
+                    Vector                         &to) const;
 
     /// The slope l phi [m] of each edge of a plate at these positions, whether it is held or not.
     std::vector<double>

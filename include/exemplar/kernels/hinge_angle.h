@@ -16,6 +16,14 @@ namespace Exemplar
   template <typename Number>
   using HingeForm = std::array<Vector3<Number>, 4>;
 
+  /// A product factor (a b^T + b a^T) of two forms at the vertices of a triangle.
+  template <typename Number>
+  struct SideProduct
+  {
+    Number                         factor;
+    std::array<Vector3<Number>, 3> a, b;
+  };
+
   /// A triangle at an edge: its unit normal n, the unit direction e of the edge, t = e x n, which
   /// points out of the triangle, and the foot of its height on the edge.
   template <typename Number>
@@ -42,6 +50,28 @@ namespace Exemplar
       const Number per_height = Number(1.) / height;
       return { { times((foot - Number(1.)) * per_height, d), times(-foot * per_height, d),
                  times(per_height, d) } };
+    }
+
+    /// The derivative of the turn of the normal about the edge, against e, by (begin, end, apex).
+    std::array<Vector3<Number>, 3>
+    of_turn() const
+    {
+      return of_height(times(Number(-1.), n));
+    }
+
+    /// Its second derivative. The turn accelerates by -2 rho y + 2 tau (z - kappa/2) when nodes have velocities v and no
+    /// acceleration: with (rho, y, z) = (n, t, e).w/h and (tau, kappa) = (n, t).(v1 - v0)/l.
+    std::array<SideProduct<Number>, 2>
+    second_of_turn() const
+    {
+      const Number                   per_length = Number(1.) / length;
+      const Vector3<Number>          tau        = times(per_length, n);
+      const Vector3<Number>          kappa      = times(Number(0.5) * per_length, t);
+      std::array<Vector3<Number>, 3> z          = of_height(e);
+      z[0]                                      = combine(Number(1.), z[0], Number(1.), kappa);
+      z[1]                                      = difference(z[1], kappa);
+      return { { { Number(-1.), of_height(n), of_height(t) },
+                 { Number(1.), { { times(Number(-1.), tau), tau, Vector3<Number>{} } }, z } } };
     }
 
     Vector3<Number> e, n, t;
@@ -85,55 +115,47 @@ namespace Exemplar
     HingeForm<Number>
     gradient() const
     {
-      // n/h at each side, and the part of an apex in its foot at x1; without a root, as it is found in each iteration
-      const Vector3<Number> rho_a = times(length / dot(normal_a, normal_a), normal_a),
-                            rho_b = times(length / dot(normal_b, normal_b), normal_b);
-      const Number per_square     = Number(1.) / square;
-      const Number s = per_square * dot(a, edge), t = per_square * dot(b, edge);
-      return { { combine(Number(1.) - s, rho_a, Number(1.) - t, rho_b), combine(s, rho_a, t, rho_b),
-                 times(Number(-1.), rho_a), times(Number(-1.), rho_b) } };
+      const HingeForm<Number> a = gradient_of_side(0), b = gradient_of_side(1);
+      HingeForm<Number>       sum;
+      for (int i = 0; i < 4; ++i)
+        sum[i] = combine(Number(1.), a[i], Number(1.), b[i]);
+      return sum;
     }
 
-    /// Its second derivative, the sum of four products. At each side the angle accelerates by
-    /// -2 rho y + 2 tau (z - kappa/2) when nodes have velocities v and no acceleration: with
-    /// (rho, y, z) = (n, t, e).w/h and (tau, kappa) = (n, t).(v1 - v0)/l.
+    /// What triangle (x0, x1, x2) gives to that, or (x1, x0, x3): the turn of its normal about the edge, against that of the other one.
+    HingeForm<Number>
+    gradient_of_side(const int side) const
+    {
+      // n/h, and the part of the apex in its foot at x1; without a root, as it is found in each iteration
+      const Vector3<Number> &normal = side == 0 ? normal_a : normal_b;
+      const Vector3<Number>  rho    = times(length / dot(normal, normal), normal);
+      const Number           s      = dot(side == 0 ? a : b, edge) / square;
+      HingeForm<Number>      form{ { times(Number(1.) - s, rho), times(s, rho), {}, {} } };
+      form[2 + side] = times(Number(-1.), rho);
+      return form;
+    }
+
+    /// The second derivative, the sum of two products for each side.
     std::array<HingeProduct<Number>, 4>
     hessian() const
     {
-      const auto of_first               = products({ x[0], x[1], x[2] }),
-                 of_second              = products({ x[1], x[0], x[3] });
-      const std::array<int, 3> at_first = { { 0, 1, 2 } }, at_second = { { 1, 0, 3 } };
-      return { { placed(of_first[0], at_first), placed(of_first[1], at_first),
-                 placed(of_second[0], at_second), placed(of_second[1], at_second) } };
+      const auto first = hessian_of_side(0), second = hessian_of_side(1);
+      return { { first[0], first[1], second[0], second[1] } };
+    }
+
+    /// The derivative of gradient_of_side().
+    std::array<HingeProduct<Number>, 2>
+    hessian_of_side(const int side) const
+    {
+      const std::array<int, 3> at = { { side, 1 - side, 2 + side } };
+      const auto products = HingeSide<Number>(x[at[0]], x[at[1]], x[at[2]]).second_of_turn();
+      return { { placed(products[0], at), placed(products[1], at) } };
     }
 
   private:
-    using SideForm = std::array<Vector3<Number>, 3>;
-
-    /// HingeProduct of forms at the nodes of a side.
-    struct SideProduct
-    {
-      Number   factor;
-      SideForm a, b;
-    };
-
-    static std::array<SideProduct, 2>
-    products(const HingeSide<Number> &side)
-    {
-      const Number          per_length = Number(1.) / side.length;
-      const Vector3<Number> tau        = times(per_length, side.n);
-      const Vector3<Number> kappa      = times(Number(0.5) * per_length, side.t);
-      SideForm              z          = side.of_height(side.e);
-      z[0]                             = combine(Number(1.), z[0], Number(1.), kappa);
-      z[1]                             = difference(z[1], kappa);
-      const SideForm of_tau            = { { times(Number(-1.), tau), tau, Vector3<Number>{} } };
-      return { { { Number(-1.), side.of_height(side.n), side.of_height(side.t) },
-                 { Number(1.), of_tau, z } } };
-    }
-
     /// The product of forms at the nodes of a side, by those of the hinge.
     static HingeProduct<Number>
-    placed(const SideProduct &of_side, const std::array<int, 3> &nodes)
+    placed(const SideProduct<Number> &of_side, const std::array<int, 3> &nodes)
     {
       HingeProduct<Number> product{ of_side.factor, {}, {} };
       for (int i = 0; i < 3; ++i)

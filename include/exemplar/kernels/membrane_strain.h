@@ -126,14 +126,15 @@ namespace Exemplar
     MembraneChange<Number>
     change(const Vector3<Number> &d, const Number &g1, const Number &g2) const
     {
-      const Number           d1 = dot(R[0], d), d2 = dot(R[1], d);
-      MembraneChange<Number> result{ { { d1 * g1, d1 * g2 }, { d2 * g1, d2 * g2 } }, {}, {} };
-      const auto            &A = result.A;
-      const Number           w = (A[1][0] - A[0][1]) / trace_U;
-      result.spin              = w;
-      result.dU                = { { A[0][0] + w * U[2], A[1][1] - w * U[2],
-                                     Number(0.5) * (A[0][1] + A[1][0] + w * (U[1] - U[0])) } };
-      return result;
+      const Number d1 = dot(R[0], d), d2 = dot(R[1], d);
+      return change_by(d1 * g1, d1 * g2, d2 * g1, d2 * g2);
+    }
+
+    /// The change by dF by its columns.
+    MembraneChange<Number>
+    change(const Vector3<Number> &dF1, const Vector3<Number> &dF2) const
+    {
+      return change_by(dot(R[0], dF1), dot(R[0], dF2), dot(R[1], dF1), dot(R[1], dF2));
     }
 
     /// The second derivative of N:U; with `convex` its part in the plane and that out of it without
@@ -159,6 +160,17 @@ namespace Exemplar
     }
 
   private:
+    /// The change by A by rows.
+    MembraneChange<Number>
+    change_by(const Number &A11, const Number &A12, const Number &A21, const Number &A22) const
+    {
+      const Number w = (A21 - A12) / trace_U;
+      return { { { A11, A12 }, { A21, A22 } },
+               w,
+               { { A11 + w * U[2], A22 - w * U[2],
+                   Number(0.5) * (A12 + A21 + w * (U[1] - U[0])) } } };
+    }
+
     /// mu = N:(J U)/tr U.
     Number
     skew_part(const Symmetric2<Number> &N) const

@@ -54,6 +54,21 @@ namespace Exemplar
       return false;
     }
 
+    /// Whether the matrix of its tangent is by other unknowns than degrees of freedom, which find_shear() gives.
+    virtual bool
+    shears_unknowns() const
+    {
+      return false;
+    }
+
+    /// Set the shear of the free degrees of freedom at these positions. Values of assemble_tangent() are those of T^T A T; its columns
+    /// are by degree of freedom.
+    virtual void
+    find_shear(const Vector & /*positions*/, UnknownShear &shear) const
+    {
+      shear.clear();
+    }
+
     /// The pattern, of make_pattern(), or what is held, is another from now on. It outlives the body.
     virtual void
     attach(const SymmetricPattern &pattern)
@@ -173,6 +188,14 @@ namespace Exemplar
     /// In bytes, its pattern included.
     virtual std::size_t
     memory_consumption() const = 0;
+
+    /// Whether an earlier tangent that turns with the nodes is good for many steps. It is not in sheets, whose triangles turn against
+    /// each other, and are much stiffer along themselves than across.
+    virtual bool
+    keeps_its_tangent() const
+    {
+      return true;
+    }
   };
 } // namespace Exemplar
 

@@ -7,6 +7,7 @@
 #include <exemplar/body/material.h>
 #include <exemplar/body/shell_strains.h>
 #include <exemplar/body/target_block.h>
+#include <exemplar/kernels/shell_kernels.h>
 #include <exemplar/potential/elastic_body.h>
 #include <exemplar/potential/volume_resistance.h>
 
@@ -55,6 +56,17 @@ namespace Exemplar
       return !volumes.empty();
     }
 
+    bool
+    shears_unknowns() const override
+    {
+      return parts.mesh.n_slopes() > 0;
+    }
+
+    /// The matrix is by the turns of mid-edge normals in space, not out of bisectors as slopes are: so it couples the vertices
+    /// and edges of each triangle, and none beyond.
+    void
+    find_shear(const Vector &positions, UnknownShear &shear) const override;
+
     void
     attach(const SymmetricPattern &pattern) override;
 
@@ -84,18 +96,17 @@ namespace Exemplar
       return false;
     }
 
+    /// The branches of angles, which are memory, too: ShellStrains::branches().
     std::vector<double>
     initial_history() const override
     {
-      return {};
+      return ShellStrains(parts.mesh).branches();
     }
 
     void
-    set_history(const std::vector<double> & /*history*/) override
-    {
-    }
+    set_history(const std::vector<double> &history) override;
 
-    /// Nothing, but angles are on the branch of these positions from now on.
+    /// Angles are on the branch of these positions from now on.
     std::vector<double>
     advance_history(const Vector &positions) override;
 
@@ -171,40 +182,36 @@ namespace Exemplar
     std::size_t
     memory_consumption() const override;
 
+    bool
+    keeps_its_tangent() const override
+    {
+      return false;
+    }
+
   private:
-    /// Three vertices, up to three more nodes of hinges, and up to three slopes.
-    static constexpr unsigned int max_dofs = 21;
+    /// Three vertices, and a slope or a node more for each edge.
+    static constexpr unsigned int max_dofs = 18;
 
     static constexpr unsigned int max_entries = max_dofs * (max_dofs + 1) / 2;
 
-    /// The degrees of freedom that the strains of a triangle depend on.
+    /// The degrees of freedom that the strains of a triangle depend on, with the unknowns sheared.
     struct TriangleDofs
     {
       unsigned int                       n = 0;
       std::array<unsigned int, max_dofs> dofs{};
       std::array<std::array<unsigned int, 4>, 3>
-                                   hinges{}; ///< index of the first one of each node, by edge
-      std::array<unsigned int, 3>  slopes{}; ///< their indices, by edge
-      bool                         is_beside_held = false;
+          hinges{}; ///< index of the first one of each node, by edge that is not sheared
+      std::array<unsigned int, 3>  slopes{};               ///< their indices, by edge
+      bool                         is_beside_held = false; ///< or its turns' hinges are
       std::array<int, max_entries> positions{}; ///< of the lower triangle by rows; -1: held
     };
 
-    /// A hinge at the positions of find_strains().
-    struct HingeState
+    /// What the loops read of hinges and triangles and what they find, as HingeTask and TriangleTask say.
+    struct Arrays
     {
-      HingeForm<double> gradient;
-      double            moment       = 0.; ///< of both triangles [N m]
-      double            moment_scale = 0.;
-    };
-
-    /// A triangle at these, and its stresses of find_stresses().
-    struct TriangleState
-    {
-      MembraneStrain<double> membrane = { { { 1., 0., 0. } }, { { 0., 1., 0. } } };
-      ShellStrain            strain;
-      ShellStrain            target; ///< D
-      ShellStrain            stress; ///< C:(e - D)
-      ShellStrain            driven; ///< the stress with that of damping
+      std::vector<unsigned int>     hinge_nodes, nodes, hinges, slopes;
+      dealii::AlignedVector<double> rest_angles, last_angles, changes, forms, lengths;
+      dealii::AlignedVector<double> rest, past, strains, targets, areas, frames, found, products;
     };
 
     /// What a triangle adds to a matrix: the derivatives of its strains by its degrees of freedom,
@@ -219,35 +226,73 @@ namespace Exemplar
     TriangleDofs
     find_dofs(unsigned int triangle) const;
 
+    /// find_shear(), by index_of(degree of freedom).
+    template <typename IndexOf>
+    UnknownShear
+    shear_by(const Vector &positions, const IndexOf &index_of) const;
+
+    /// Add the product of a triangle's matrix.
+    void
+    add_product(unsigned int           triangle,
+                const TriangleTangent &tangent,
+                const Vector          &displacement,
+                Vector                &gradient) const;
+
+    /// Write what the loops read of the shell at rest: where hinges are others.
+    void
+    write_hinges();
+
+    /// The same of the constants of triangles.
+    void
+    write_triangles();
+
+    /// Let the loops know on which branch angles are.
+    void
+    write_branches();
+
+    TriangleTask
+    triangle_task(const Vector &positions, const std::vector<double> *weights, bool with_frames);
+
+    /// Call loop(begin, end) for the batches of n things, in several threads.
+    template <typename Loop>
+    void
+    for_each_batch(std::size_t n, const Loop &loop) const;
+
     /// Find hinges and strains.
     void
     find_strains(const Vector &positions, RotationUse rotations);
 
-    /// Find what follows from strains and weights: stresses, and the moments of hinges.
+    /// Find what follows from strains and weights: energies, forces, and the moments of hinges.
     void
-    find_stresses(const std::vector<double> &weights);
+    find_stresses(const Vector &positions, const std::vector<double> &weights);
 
-    /// The moment of the stress at each edge of a triangle [N m].
-    std::array<double, 3>
-    moments(const ShellTriangle &triangle, const ShellStrain &stress) const;
+    /// One of TriangleResult.
+    double
+    found(const unsigned int triangle, const std::size_t number) const
+    {
+      return arrays.found[batch_index(triangle, TriangleResult::size, number)];
+    }
+
+    /// Six numbers of a triangle.
+    static ShellStrain
+    numbers_of(const dealii::AlignedVector<double> &of, unsigned int triangle);
+
+    /// C:(e - D) with that of damping.
+    ShellStrain
+    driven_stress(unsigned int triangle) const;
 
     void
-    add_energies(unsigned int triangle, ElasticSums &sums) const;
+    add_energies(ElasticSums &sums) const;
 
-    /// The forces at the vertices of a triangle of the first three stresses, over its volume.
-    std::array<Vector3<double>, 3>
-    membrane_forces(unsigned int triangle, const Vector &positions) const;
-
-    /// Add the forces at the vertices of the membrane's stress and those at slopes, and add to the scales
-    /// of the hinges' moments.
+    /// Add the forces at vertices and slopes, and those of hinges.
     void
-    add_forces(unsigned int triangle, const Vector &positions, ElasticSums &sums);
+    add_forces(ElasticSums &sums);
 
-    /// Add those of the hinges' moments.
+    /// Add factor times the product of the strains' stress, or of that beyond the targets, with what each weight asks for.
     void
-    add_hinge_forces(ElasticSums &sums) const;
+    add_weight_products(bool of_strain_alone, double factor, std::vector<double> &sums);
 
-    /// Add factor times the product of a stress in a triangle with what each weight asks for.
+    /// Add that for a stress in a triangle.
     void
     add_weight_products(unsigned int         triangle,
                         const ShellStrain   &stress,
@@ -264,22 +309,41 @@ namespace Exemplar
                  TriangleTangent &to) const;
 
     void
-    find_strain_slopes(unsigned int triangle, const Vector &positions, TriangleTangent &to) const;
+    find_strain_slopes(unsigned int                  triangle,
+                       const TriangleStrain<double> &at,
+                       const Vector                 &positions,
+                       TriangleTangent              &to) const;
 
     void
-    find_stretch_slopes(unsigned int triangle, const Vector &positions, TriangleTangent &to) const;
+    find_stretch_slopes(const TriangleStrain<double> &at,
+                        const ShellTriangle          &triangle,
+                        TriangleTangent              &to) const;
 
     void
-    add_stretch_geometry(unsigned int     triangle,
-                         bool             convex,
-                         const Vector    &positions,
-                         TriangleTangent &to) const;
+    add_stretch_geometry(unsigned int                  triangle,
+                         const TriangleStrain<double> &at,
+                         bool                          convex,
+                         TriangleTangent              &to) const;
 
     void
-    add_membrane_geometry(unsigned int triangle, bool convex, TriangleTangent &to) const;
+    add_membrane_geometry(unsigned int                  triangle,
+                          const TriangleStrain<double> &at,
+                          bool                          convex,
+                          TriangleTangent              &to) const;
 
+    /// Of the turn of the triangle's own normal about an edge.
     void
-    add_hinge_geometry(unsigned int triangle, const Vector &positions, TriangleTangent &to) const;
+    add_turn_geometry(unsigned int                  triangle,
+                      int                           edge,
+                      const TriangleStrain<double> &at,
+                      TriangleTangent              &to) const;
+
+    /// Of the hinge at an edge.
+    void
+    add_hinge_geometry(unsigned int     triangle,
+                       int              edge,
+                       const Vector    &positions,
+                       TriangleTangent &to) const;
 
     void
     add_columns(unsigned int           triangle,
@@ -289,21 +353,26 @@ namespace Exemplar
     void
     estimate_rounding();
 
-    const ShellParts                            parts;
-    ShellStrains                                strains;
-    VolumeResistance                            volumes;
-    std::vector<ShellElasticity>                elasticities;
-    const SymmetricPattern                     *pattern = nullptr; ///< since attach()
-    std::vector<TriangleDofs>                   dofs;              ///< since attach()
-    double                                      damping = 0.;      ///< s
-    std::vector<ShellStrain>                    past_strains;      ///< e*; with damping alone
-    std::vector<HingeState>                     hinges;
-    std::vector<TriangleState>                  triangles;
-    std::vector<std::array<Vector3<double>, 3>> frames; ///< turned axes of the triangles
-    double rest_size          = 0.;                     ///< the greatest coordinate at rest [m]
-    double force_of_rounding  = 0.;                     ///< greatest of a node [N]
-    double stress_of_rounding = 0.;                     ///< (sum V T^2)^(1/2)
-    double strain_of_rounding = 0.;                     ///< (sum V e^2)^(1/2) [m^(3/2)]
+    /// In bytes.
+    std::size_t
+    memory_of_arrays() const;
+
+    const ShellParts             parts;
+    ShellStrains                 strains;
+    VolumeResistance             volumes;
+    std::vector<ShellElasticity> elasticities;
+    const SymmetricPattern      *pattern = nullptr; ///< since attach()
+    std::vector<TriangleDofs>    dofs;              ///< since attach()
+    double                       damping = 0.;      ///< s
+    Arrays                       arrays;
+    std::vector<std::array<double, 6>>
+                        scales_at_rest; ///< of triangles: |gradients| [1/m], then |bending| [-]
+    std::vector<double> moments,
+        moment_scales;              ///< of hinges, since find_stresses() and add_forces() [N m]
+    double rest_size          = 0.; ///< the greatest coordinate at rest [m]
+    double force_of_rounding  = 0.; ///< greatest of a node [N]
+    double stress_of_rounding = 0.; ///< (sum V T^2)^(1/2)
+    double strain_of_rounding = 0.; ///< (sum V e^2)^(1/2) [m^(3/2)]
   };
 } // namespace Exemplar
 

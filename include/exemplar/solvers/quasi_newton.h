@@ -134,9 +134,19 @@ namespace Exemplar
     take_next_metric();
 
     /// Whether the last step took more iterations than steps like it since the metric was made, its cost included. Contact
-    /// takes iterations that another metric would not save.
+    /// takes iterations that another metric would not save. Of a body that does not keep its tangent: also whether that step
+    /// had to make the metric on its way.
     bool
     is_slow() const;
+
+    /// Whether a metric of an earlier step is to be replaced within this one, because it would take more iterations to the tolerance, at
+    /// the rate of the last one, than another costs. Of a body that does not keep its tangent alone.
+    bool
+    should_have_another(double residual, double gradient_ratio) const;
+
+    /// So many iterations with one metric a step may take without contact before it makes another.
+    unsigned int
+    most_iterations() const;
 
     /// A step has ended, or the part of one that the metric was good for.
     void

@@ -15,103 +15,6 @@ namespace Exemplar
       return result;
     }
 
-    /// T.b of the curvatures alone, see contract().
-    double
-    contract_bending(const ShellStrain &T, const ShellStrain &b)
-    {
-      return T[3] * b[3] + T[4] * b[4] + 2. * T[5] * b[5];
-    }
-
-    /// How the strains of all triangles change along changes of the positions.
-    std::vector<ShellStrain>
-    strain_changes(const ShellStrains &strains, const Vector &positions, const Vector &along)
-    {
-      const ShellMesh    &mesh = strains.get_mesh();
-      std::vector<double> of_hinges(strains.get_hinges().size(), 0.);
-      for (unsigned int h = 0; h < of_hinges.size(); ++h)
-      {
-        const HingeForm<double> form = strains.hinge_angle(h, positions).gradient();
-        for (int i = 0; i < 4; ++i)
-          of_hinges[h] += dot(form[i], place_in(along, strains.get_hinges()[h].nodes[i]));
-      }
-      std::vector<ShellStrain> result(mesh.triangles().size(), ShellStrain{});
-      for (unsigned int t = 0; t < result.size(); ++t)
-      {
-        const ShellTriangle &triangle = mesh.triangles()[t];
-        const auto           membrane = strains.membrane(t, positions);
-        const auto           turns    = strains.turns_of(t, along, of_hinges);
-        for (unsigned int i = 0; i < 3; ++i)
-        {
-          const auto  &g     = triangle.gradients[i];
-          const auto   moved = place_in(along, triangle.nodes[i]);
-          const auto   dU    = membrane.change(moved, g[0], g[1]).dU;
-          const double rest  = mesh.edges()[triangle.edges[i]].length;
-          if (mesh.kind() == ShellKind::hinges)
-            result[t][i] = dot(strains.stretch(t, i, positions).direction,
-                               difference(place_in(along, triangle.nodes[(i + 1) % 3]), moved))
-                           / rest;
-          for (int k = 0; k < 3; ++k)
-          {
-            if (mesh.kind() == ShellKind::plate)
-              result[t][k] += dU[k];
-            result[t][3 + k] += turns[i] * triangle.bending[i][k];
-          }
-        }
-      }
-      return result;
-    }
-
-    void
-    add_at(const unsigned int node, const double factor, const Vector3<double> &force, Vector &to)
-    {
-      for (unsigned int c = 0; c < 3; ++c)
-        to[3 * node + c] += factor * force[c];
-    }
-
-    /// Chain rule: add the derivatives by positions of a function of the strains there, with T.b = contract(T, b) its
-    /// change by strains b of a triangle.
-    void
-    add_pulled_back(const ShellStrains             &strains,
-                    const Vector                   &positions,
-                    const std::vector<ShellStrain> &stresses,
-                    Vector                         &to)
-    {
-      const ShellMesh    &mesh = strains.get_mesh();
-      std::vector<double> moments(strains.get_hinges().size(), 0.);
-      for (unsigned int t = 0; t < stresses.size(); ++t)
-      {
-        const ShellTriangle &triangle = mesh.triangles()[t];
-        const ShellStrain   &T        = stresses[t];
-        const auto           P = strains.membrane(t, positions).force({ { T[0], T[1], T[2] } });
-        for (unsigned int i = 0; i < 3; ++i)
-        {
-          const auto &g = triangle.gradients[i];
-          if (mesh.kind() == ShellKind::plate)
-            add_at(triangle.nodes[i], 1., combine(g[0], P[0], g[1], P[1]), to);
-          else
-          {
-            const double force = (i == 2 ? 2. : 1.) * T[i] / mesh.edges()[triangle.edges[i]].length;
-            const auto   direction = strains.stretch(t, i, positions).direction;
-            add_at(triangle.nodes[i], -force, direction, to);
-            add_at(triangle.nodes[(i + 1) % 3], force, direction, to);
-          }
-          const auto      &b      = triangle.bending[i];
-          const double     moment = T[3] * b[0] + T[4] * b[1] + 2. * T[5] * b[2];
-          const ShellTurn &turn   = strains.turns(t)[i];
-          if (turn.hinge >= 0)
-            moments[turn.hinge] += turn.of_hinge * moment;
-          if (turn.slope >= 0)
-            to[turn.slope] += turn.of_slope * moment;
-        }
-      }
-      for (unsigned int h = 0; h < moments.size(); ++h)
-      {
-        const HingeForm<double> form = strains.hinge_angle(h, positions).gradient();
-        for (int i = 0; i < 4; ++i)
-          add_at(strains.get_hinges()[h].nodes[i], moments[h], form[i], to);
-      }
-    }
-
     /// The derivative of ShellElasticity::stress() of a strain by Poisson's ratio.
     ShellStrain
     stress_by_poisson(const double E, const double nu, const ShellKind kind, const ShellStrain &a)
@@ -125,6 +28,14 @@ namespace Exemplar
       return ShellElasticity{ E * (1. + nu * nu) / square, -0.5 * E / ((1. + nu) * (1. + nu)),
                               kind }
           .stress(a);
+    }
+
+    /// eta of number k of a strain in a triangle.
+    double
+    importance_of(const Problem &problem, const unsigned int t, const unsigned int k)
+    {
+      return problem.examples.poses.importance() * problem.body.material.importance(t)
+             * (k < n_shell_strains / 2 ? 1. : problem.parameters.examples.bending_importance);
     }
 
     /// A stress whose product with a strain is a part of a slope, the same by Poisson's ratio, and that strain.
@@ -213,20 +124,12 @@ namespace Exemplar
                                  problem.body.fe_space.shell().kind(), strain);
       }
 
-      /// eta of number k of a strain in a triangle.
-      double
-      importance(const unsigned int t, const unsigned int k) const
-      {
-        return problem.examples.poses.importance() * problem.body.material.importance(t)
-               * (k < n_shell_strains / 2 ? 1. : problem.parameters.examples.bending_importance);
-      }
-
       /// The stress of the blended energy beyond that of the others, see ExamplePoses::energy_of_shell().
       ShellStrain
       excess(const unsigned int t, ShellStrain stress) const
       {
         for (unsigned int k = 0; k < n_shell_strains; ++k)
-          if (const double eta = importance(t, k); eta > 0.)
+          if (const double eta = importance_of(problem, t, k); eta > 0.)
             stress[k] *= of_blend * (1. - eta) / eta;
           else
             stress[k] = 0.;
@@ -242,7 +145,7 @@ namespace Exemplar
                      SlopeDerivatives  &sums) const
       {
         for (unsigned int k = 0; k < n_shell_strains; ++k)
-          if (const double eta = importance(t, k); eta > 0.)
+          if (const double eta = importance_of(problem, t, k); eta > 0.)
             stress[k] *= -of_blend / eta;
           else
             stress[k] = 0.;
@@ -271,12 +174,12 @@ namespace Exemplar
     const ShellStrains &of        = body.get_strains();
     const Vector       &positions = problem.state.positions;
     const auto          strains   = of.strains(positions),
-               changes            = strain_changes(of, positions, direction.positions);
+               changes            = of.strain_changes(positions, direction.positions);
     const ElasticSlopeOfShell slope(problem, body, direction, strains, changes);
     std::vector<ShellStrain>  stresses;
     for (unsigned int t = 0; t < strains.size(); ++t)
       stresses.push_back(slope.add(t, sums));
-    add_pulled_back(of, positions, stresses, sums.by_positions);
+    of.add_pulled_back(positions, stresses, sums.by_positions);
     body.add_exact_response(direction.positions, positions, problem.state.weights,
                             sums.by_positions);
   }
@@ -301,7 +204,7 @@ namespace Exemplar
       for (std::size_t t = 0; t < since.size(); ++t)
         since[t] = sum_of(1., since[t], -past.weight, then[t]);
     }
-    const auto changes = strain_changes(of, problem.state.positions, direction.positions);
+    const auto changes = of.strain_changes(problem.state.positions, direction.positions);
     std::vector<ShellStrain> by_past;
     of_motion.by_stiffness_damping = 0.;
     for (unsigned int t = 0; t < since.size(); ++t)
@@ -322,7 +225,7 @@ namespace Exemplar
     for (const WeightedPositions &past : history)
     {
       Vector at(problem.body.fe_space.n_dofs());
-      add_pulled_back(of, *past.positions, by_past, at);
+      of.add_pulled_back(*past.positions, by_past, at);
       at *= past.weight;
       of_motion.by_past.push_back(std::move(at));
     }
@@ -336,16 +239,13 @@ namespace Exemplar
     ShellStrains        strains(mesh);
     if (mesh.n_slopes() > 0)
       strains.set_held(std::vector<bool>(mesh.edges().size(), true));
-    const double bending = problem.parameters.examples.bending_importance;
     for (unsigned int i = poses.first_strained(); i < poses.size(); ++i)
     {
       std::vector<ShellStrain> stresses(mesh.triangles().size());
       for (unsigned int t = 0; t < stresses.size(); ++t)
         for (unsigned int k = 0; k < n_shell_strains; ++k)
-          stresses[t][k] = poses.importance() * problem.body.material.importance(t)
-                           * (k < n_shell_strains / 2 ? 1. : bending)
-                           * sums.by_strains[t * poses.size() + i][k];
-      add_pulled_back(strains, poses.pose(i), stresses, sums.by_poses[i]);
+          stresses[t][k] = importance_of(problem, t, k) * sums.by_strains[t * poses.size() + i][k];
+      strains.add_pulled_back(poses.pose(i), stresses, sums.by_poses[i]);
     }
     for (unsigned int t = 0; t < sums.by_thickness.size(); ++t)
       sums.by_thickness[t] /= mesh.triangles()[t].thickness;

@@ -356,7 +356,7 @@ namespace Exemplar
       broken = "it was changed by " + problem.get_changes().last;
     const State &end = problem.state;
     steps.push_back({ end.time, size, end.positions, end.velocities, end.weights,
-                      problem.actions.held_tensions });
+                      problem.actions.held_tensions, end.history });
   }
 
   void
@@ -384,6 +384,7 @@ namespace Exemplar
     state.positions           = last.positions;
     state.velocities          = last.velocities;
     state.weights             = last.weights;
+    state.history             = last.history;
     if (has_two_steps)
     {
       state.previous_positions  = positions_before(i - 1);

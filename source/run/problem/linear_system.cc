@@ -138,6 +138,8 @@ namespace Exemplar
                                        tolerance_of_solves(solver, n_examples));
       matrix->reinit(pattern);
     }
+    if (potential.get_body().shears_unknowns())
+      matrix = make_sheared_operator(std::move(matrix), potential.get_free_dofs().list().size());
     if (potential.get_body().has_dense_products())
       matrix = make_low_rank_operator(std::move(matrix), potential.get_free_dofs());
     return make_block_system(std::move(matrix), form, exchange);

@@ -118,8 +118,9 @@ namespace Exemplar
     std::vector<bool> held = held_slopes();
     if (held == slopes_held)
       return;
-    const Vector tips = body.fe_space.with_tips(std::move(state.positions), slopes_held);
-    state.positions   = body.fe_space.with_slopes(tips, held);
+    const Vector tips
+        = body.fe_space.with_tips(std::move(state.positions), slopes_held, state.history);
+    state.positions = body.fe_space.with_slopes(tips, held, state.history);
     for (unsigned int dof = 3 * body.fe_space.numbering().n_places(); dof < state.velocities.size();
          ++dof)
       state.velocities[dof] = 0.; // slopes have no mass

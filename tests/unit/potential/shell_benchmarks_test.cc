@@ -57,8 +57,7 @@ namespace Exemplar::Testing
     small_displacements(ShellScene &scene, const Vector &load)
     {
       return scene.solve(
-          scene.assemble(Tangent::exact, rest_positions(scene.body->get_strains()), {}).values,
-          load);
+          scene.assemble(Tangent::exact, rest_positions(scene.body->get_strains()), {}), load);
     }
 
     /// A cylinder's part of angles up to `angle` from its top on and of a length, with triangles that
@@ -150,11 +149,11 @@ namespace Exemplar::Testing
         Vector step;
         try
         {
-          step = scene.solve(scene.assemble(Tangent::exact, x, {}).values, at.gradient);
+          step = scene.solve(scene.assemble(Tangent::exact, x, {}), at.gradient);
         }
         catch (const SolverFailure &)
         {
-          step = scene.solve(scene.assemble(Tangent::convex, x, {}).values, at.gradient);
+          step = scene.solve(scene.assemble(Tangent::convex, x, {}), at.gradient);
         }
         if (step.linfty_norm() < 1e-10)
           return x;

@@ -396,7 +396,7 @@ namespace Exemplar::Testing
         for (const unsigned int node : triangle.nodes)
           f[3 * node + 2] += triangle.area / 3.;
       const Vector u = scene.solve(
-          scene.assemble(Tangent::exact, rest_positions(scene.body->get_strains()), {}).values, f);
+          scene.assemble(Tangent::exact, rest_positions(scene.body->get_strains()), {}), f);
       const double D = ShellScene::E * t * t * t / 12. / (1. - ShellScene::nu * ShellScene::nu);
       return u[3 * (n / 2 * (n + 2)) + 2] * D / (clamped ? 0.00126532 : 0.00406235);
     }
@@ -494,10 +494,9 @@ namespace Exemplar::Testing
         double                    size       = 1.;
         for (; size > 1e-13 && iterations < 100; ++iterations)
         {
-          const Vector step
-              = scene.solve(scene.assemble(Tangent::convex, x, weights).values, at.gradient);
-          double part = 1.;
-          Vector y    = x;
+          const Vector step = scene.solve(scene.assemble(Tangent::convex, x, weights), at.gradient);
+          double       part = 1.;
+          Vector       y    = x;
           y.add(-part, step);
           ElasticEvaluation next = scene.evaluate(y, weights);
           while (next.energy > at.energy && part > 1e-10)

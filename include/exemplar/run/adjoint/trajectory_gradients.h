@@ -22,6 +22,7 @@ namespace Exemplar
     Vector              positions, velocities;
     std::vector<double> weights;
     std::vector<double> held_tensions; ///< see FibreTensionTerm
+    std::vector<double> history;       ///< State::history
   };
 
   /// The states of a problem from a first one on, for gradients through its steps.

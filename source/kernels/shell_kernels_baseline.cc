@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <xsimd/xsimd.hpp>
+
+#include <exemplar/kernels/shell_loops.h>
+
+namespace Exemplar
+{
+  ShellKernels
+  shell_kernels_baseline()
+  {
+    return ShellLoops<xsimd::batch<double, xsimd::default_arch>>::kernels();
+  }
+} // namespace Exemplar
