@@ -242,8 +242,10 @@ namespace Exemplar
     progress.finish();
     transfer.tell_steps({});
     for (std::size_t k = 0; k < n_done; ++k)
-      if (const std::string edge = poses[k].quality.warning_of_edge(); !edge.empty())
-        show_warning(poses[k].file.string() + ": " + edge);
+      for (const std::string &warning :
+           { poses[k].quality.warning_of_motion(), poses[k].quality.warning_of_edge() })
+        if (!warning.empty())
+          show_warning(poses[k].file.string() + ": " + warning);
     write_csv(poses, n_done, options.output / "poses.csv");
     if (!options.quiet)
       print_table(poses, n_done);

@@ -53,8 +53,10 @@ namespace Exemplar
   {
     std::vector<std::string> warnings = made.warnings;
     for (const MadeOfSurfaces::Pose &pose : made.poses)
-      if (const std::string edge = pose.quality.warning_of_edge(); !edge.empty())
-        warnings.push_back(pose.file + ": " + edge);
+      for (const std::string &warning :
+           { pose.quality.warning_of_motion(), pose.quality.warning_of_edge() })
+        if (!warning.empty())
+          warnings.push_back(pose.file + ": " + warning);
     for (const MadeOfSurfaces::Pose &pose : made.poses)
       if (pose.quality.max_error > tolerable_error)
         warnings.push_back(pose.file + ": the mesh is up to " + percent(pose.quality.max_error)

@@ -128,7 +128,10 @@ namespace Exemplar
     const Points x     = moved(motion, result.x);
     measure(x, quality);
     if (skin != nullptr)
+    {
       measure_surface(x, vertices, quality);
+      measure_motion(moved(inverse(motion), as_points(vertices)), quality);
+    }
     else
       measure_boundary(x, targets, quality);
     return x;
@@ -226,7 +229,12 @@ namespace Exemplar
     {
       const double error = norm(minus(places[v], vertices[v])) / size;
       quality.mean_error += error / static_cast<double>(measured.size());
-      quality.max_error = std::max(quality.max_error, error);
+      if (error > quality.max_error)
+      {
+        quality.max_error    = error;
+        quality.vertex       = v + 1;
+        quality.vertex_place = vertices[v];
+      }
     }
     for (const auto &[a, b] : edges)
       if (const double own = norm(minus(vertices[a], vertices[b])); own > 0.)
@@ -237,6 +245,14 @@ namespace Exemplar
           quality.edge         = { { a + 1U, b + 1U } };
           quality.edge_place   = plus(vertices[a], .5, minus(vertices[b], vertices[a]));
         }
+  }
+
+  void
+  PoseTransfer::measure_motion(const Points &unmoved, PoseQuality &quality) const
+  {
+    const double size = diagonal(nodes);
+    for (const std::size_t v : measured)
+      quality.motion = std::max(quality.motion, unmoved[v].distance(skin->place_at_rest(v)) / size);
   }
 
   RestSurface::RestSurface(const std::filesystem::path &file)

@@ -4,6 +4,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
 namespace Exemplar
 {
   std::string
@@ -18,5 +20,19 @@ namespace Exemplar
         "or of more cells.",
         edge[0], edge[1], short_text(edge_place[0]), short_text(edge_place[1]),
         short_text(edge_place[2]), short_text(longest_edge));
+  }
+
+  std::string
+  PoseQuality::warning_of_motion() const
+  {
+    if (!(max_error > std::max(least_visible, hardly_followed * motion)))
+      return "";
+    return fmt::format(
+        "the pose is hardly followed: vertex {} (at {}, {}, {} in it) stays {} % of the diagonal "
+        "away, and no vertex moves by more than {} %. The cells there are too large. Make a mesh "
+        "of "
+        "more cells (--cells, Mesh/Cells).",
+        vertex, short_text(vertex_place[0]), short_text(vertex_place[1]),
+        short_text(vertex_place[2]), short_text(100. * max_error), short_text(100. * motion));
   }
 } // namespace Exemplar

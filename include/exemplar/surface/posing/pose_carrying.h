@@ -60,6 +60,8 @@ namespace Exemplar
     measure_surface(const Points                      &x,
                     const SurfaceAttachment::Vertices &vertices,
                     PoseQuality                       &quality) const;
+    void
+    measure_motion(const Points &unmoved, PoseQuality &quality) const;
 
     Points                                   nodes;
     SurfaceAttachment                        attachment;

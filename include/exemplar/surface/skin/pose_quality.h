@@ -14,7 +14,12 @@ namespace Exemplar
     double       min_det = 0., max_det = 0.;
     double       min_stretch = 0., stretch_1 = 0., stretch_99 = 0., max_stretch = 0.;
     double       mean_error = 0., max_error = 0.; ///< distances to the pose, over its diagonal
-    double       longest_edge = 0.; ///< carried over posed length, greatest ratio of an edge
+    /// The farthest vertex, from 1, and its place in the pose [unit of the file].
+    std::size_t           vertex = 0;
+    std::array<double, 3> vertex_place{};
+    /// Greatest displacement of a vertex from rest, less the rigid motion, over the diagonal.
+    double motion       = 0.;
+    double longest_edge = 0.; ///< carried over posed length, greatest ratio of an edge
     /// Its vertices, from 1, and the middle between them in the pose [unit of the file].
     std::array<std::size_t, 2> edge{};
     std::array<double, 3>      edge_place{};
@@ -29,6 +34,14 @@ namespace Exemplar
     /// A sentence on the longest edge, if it is longer than that; otherwise empty.
     std::string
     warning_of_edge() const;
+
+    /// A pose is hardly followed if a vertex stays this share of `motion` away from it. What stays
+    /// less than least_visible of the diagonal away is not seen.
+    static constexpr double hardly_followed = .5, least_visible = .001;
+
+    /// A sentence on the farthest vertex, if the pose is hardly followed there; otherwise empty.
+    std::string
+    warning_of_motion() const;
   };
 } // namespace Exemplar
 
