@@ -182,7 +182,8 @@ namespace Exemplar::Python
           "Weights of the examples, as problem.weights. Read only.");
       add(
           "history", [](const py::object &self) { return row(self, state_of(self).history); },
-          "What laws remember, such as plastic strains, and of a shell the angles at its edges: equally\n"
+          "What laws remember, such as plastic strains, and of a shell the angles at its edges: "
+          "equally\n"
           "many numbers for each cell, one cell after the other; empty if nothing is. Read only.");
       add(
           "time", [](const py::object &self) { return state_of(self).time; },
