@@ -6,8 +6,8 @@ import numpy as np
 
 import exemplar
 
-from test_gradients import bar, difference, edges_of, with_middles
-from test_gradients_of_contact import DYNAMIC, SIZES, STATIC, scene
+from test_gradients import bar, edges_of, with_middles
+from test_gradients_of_contact import DYNAMIC, STATIC, AgainstDifferences, RecordedCase, scene
 
 random = np.random.default_rng(31)
 LOWER, LOWER_CELLS, _ = bar((3, 2, 2), random)
@@ -34,7 +34,7 @@ PRESSED = {**STATIC, "Handles": {"lower": {"Select": f"box -9 -9 {LOW - 1} 9 9 {
 THROWN = {**DYNAMIC, "Initial": {}, "Time": {"Step": 0.02, "End": 0.2}}
 
 
-class Case:
+class Case(RecordedCase):
     """Bars that meet, a function of all states, and what they depend on."""
 
     def __init__(self, base, mesh, contact, n_steps, soft=1., down=-0.06):
@@ -71,41 +71,15 @@ class Case:
                 problem.step()
         return problem, trajectory
 
-    def value(self, **changes):
-        trajectory = self.made(**changes)[1]
-        return (self.by_positions * trajectory.positions).sum() + ((self.by_velocities * trajectory.velocities).sum() if self.is_dynamic else 0)
-
     def gradient(self, name):
         """By what value() depends on; None: it is not known."""
         if name == "handles":
             upper = with_middles(self.problem.rest_positions, self.edges)[:self.n, 2] > HIGH + 0.6
             return self.found["handles"][upper].sum(axis=0)
-        if name == "rest_positions" and name in self.found:
-            follow = self.found["handles"] + self.found.get("initial_positions", 0)
-            result = self.found[name] + follow[:len(self.nodes)]
-            for middle, ends in zip(follow[len(self.nodes):], self.edges):
-                result[ends] += 0.5 * middle
-            return result
-        return self.found.get(name)
+        return self.by_rest_positions(self.edges) if name == "rest_positions" else self.found.get(name)
 
 
-class Differences(unittest.TestCase):
-    def check(self, case):
-        self.assertGreater(np.abs(case.problem.contact_forces).max(), 0)
-        for name, at in case.values.items():
-            if name == "initial_positions" and name not in case.found:
-                continue  # of a static scene
-            direction = SIZES[name] * random.uniform(0.5, 1, at.shape) * random.choice([-1, 1], at.shape)
-            contributions = case.gradient(name) * direction
-            found, errors = np.sum(contributions), []
-            for step in 2e-4, 3e-5, 5e-6:  # until no other part of the body is the nearest
-                expected = difference(lambda value, name=name: case.value(**{name: value}), at, direction, step)
-                errors.append(abs(found - expected) / max(abs(expected), np.linalg.norm(contributions)))
-                if errors[-1] < 1e-6:
-                    break
-            with self.subTest(name):
-                self.assertLess(errors[-1], 1e-6, (found, expected, errors))
-
+class Differences(AgainstDifferences, unittest.TestCase):
     def test_equilibria(self):
         for soft in 0.2, 1., 5., None:  # without a softer side each is so in half of the differences
             with self.subTest(soft):

@@ -67,7 +67,27 @@ def scene(base, **sections):
     return {**base, **{name: {**base.get(name, {}), **keys} for name, keys in sections.items()}}
 
 
-class Case:
+class RecordedCase:
+    """A function of all recorded states: sums of `by_positions` and, in dynamic scenes, `by_velocities`; `found` is its gradient. made() makes
+    a problem and its trajectory with other values."""
+
+    def value(self, **changes):
+        trajectory = self.made(**changes)[1]
+        return (self.by_positions * trajectory.positions).sum() + ((self.by_velocities * trajectory.velocities).sum() if self.is_dynamic else 0)
+
+    def by_rest_positions(self, edges):
+        """Of a body that begins at rest, with handles that are moved from there."""
+        if "rest_positions" not in self.found:
+            return None
+        result = self.found["rest_positions"].copy()
+        follow = self.found["handles"] + self.found.get("initial_positions", 0)
+        result += follow[:len(result)]
+        for middle, ends in zip(follow[len(result):], edges):
+            result[ends] += 0.5 * middle
+        return result
+
+
+class Case(RecordedCase):
     """A bar and an obstacle, a function of all states, and what they depend on."""
 
     def __init__(self, base, shape, distance=0.08, friction=0., moves=True, **values):
@@ -109,27 +129,16 @@ class Case:
                 problem.step()
         return problem, trajectory
 
-    def value(self, **changes):
-        trajectory = self.made(**changes)[1]
-        return (self.by_positions * trajectory.positions).sum() + ((self.by_velocities * trajectory.velocities).sum() if self.is_dynamic else 0)
-
     def gradient(self, name):
         """By what value() depends on; None: it is not known."""
         if name in ("displacement", "radius", "friction"):
             return self.found["obstacles"]["it"].get(name)
         if name == "handles":
             return self.found["handles"].sum(axis=0)
-        if name == "rest_positions" and name in self.found:
-            # a body that begins at rest, with handles that are moved from there
-            follow = self.found["handles"] + self.found.get("initial_positions", 0)
-            result = self.found[name] + follow[:len(NODES)]
-            for middle, ends in zip(follow[len(NODES):], EDGES):
-                result[ends] += 0.5 * middle
-            return result
-        return self.found.get(name)
+        return self.by_rest_positions(EDGES) if name == "rest_positions" else self.found.get(name)
 
 
-class Differences(unittest.TestCase):
+class AgainstDifferences:
     def check(self, case):
         self.assertGreater(np.abs(case.problem.contact_forces).max(), 0)
         for name, at in case.values.items():
@@ -149,6 +158,8 @@ class Differences(unittest.TestCase):
             with self.subTest(name):
                 self.assertLess(errors[-1], 1e-6, (found, expected, errors))
 
+
+class Differences(AgainstDifferences, unittest.TestCase):
     def check_shapes(self, names, base, **of_case):
         for name in names:
             with self.subTest(name):
