@@ -112,11 +112,22 @@ namespace Exemplar
     set_openmp_levels(levels_before);
   }
 
+  int
+  set_blas_threads(const int n)
+  {
+    const auto get = find_function<int()>("openblas_get_num_threads");
+    const auto set = find_function<void(int)>("openblas_set_num_threads");
+    if (get == nullptr || set == nullptr)
+      return 1;
+    const int before = get();
+    set(n);
+    return before;
+  }
+
   void
   use_one_blas_thread()
   {
-    if (const auto set_threads = find_function<void(int)>("openblas_set_num_threads"))
-      set_threads(1);
+    set_blas_threads(1);
     set_openmp_levels(0);
   }
 

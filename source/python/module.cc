@@ -306,7 +306,8 @@ PYBIND11_MODULE(exemplar, module)
   module.def(
       "use_one_blas_thread", &use_one_blas_thread,
       "Let BLAS use one thread in the whole process, numpy with it if it uses the same BLAS.\n"
-      "Results are then the same bytes as the program's. Importing exemplar does not do so.\n"
+      "A problem that is made, steps or gives gradients does so for that while by itself;\n"
+      "evaluations at given places do not.\n"
       "Raises nothing.");
   Python::add_examples(module);
   Python::add_signatures(module);

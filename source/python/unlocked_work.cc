@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/environment.h>
 #include <exemplar/python/unlocked_work.h>
 
 #include <chrono>
@@ -10,14 +11,16 @@ namespace Exemplar::Python
 
   UnlockedWork::UnlockedWork()
   {
-    ++n_running;
+    if (n_running++ == 0)
+      blas_threads_before = set_blas_threads(1);
     unlocked.emplace();
   }
 
   UnlockedWork::~UnlockedWork()
   {
     unlocked.reset();
-    --n_running;
+    if (--n_running == 0)
+      set_blas_threads(blas_threads_before);
   }
 
   void

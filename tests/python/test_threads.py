@@ -61,6 +61,20 @@ class Threads(unittest.TestCase):
         self.passes("first, second = in_threads(solved, [BAR, BAR])\n"
                     "expect(first is not None and first == second, 'threads differ')")
 
+    def test_blas_has_one_thread_while_a_problem_steps(self):
+        self.passes("""
+import ctypes
+files = {line.split()[-1] for line in open("/proc/self/maps") if "openblas" in line}
+if files: # the reference BLAS has one thread
+    n_threads = ctypes.CDLL(files.pop()).openblas_get_num_threads
+    expect(n_threads() == 2, "two threads are asked for")
+    problem, within = exemplar.Problem(BAR), []
+    problem.on_iteration(lambda report: within.append(n_threads()))
+    problem.run()
+    expect(set(within) == {1}, f"within a step: {within}")
+    expect(n_threads() == 2, "the number before does not come back")
+""", OPENBLAS_NUM_THREADS="2")
+
     @unittest.skipUnless(has_multigrid(), "built without Trilinos")
     def test_first_multigrid(self):
         self.passes("first, second = in_threads(solved, [ITERATIVE, ITERATIVE])\n"

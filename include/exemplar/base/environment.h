@@ -44,6 +44,11 @@ namespace Exemplar
     const int levels_before;
   };
 
+  /// Set the number of threads of OpenBLAS in the whole process; returns the number before, or 1 and does nothing if BLAS is another
+  /// library.
+  int
+  set_blas_threads(int n);
+
   /// Restrict OpenBLAS to one thread in the whole process, and the parallel regions that libraries
   /// begin in this thread, so that results do not depend on the number of threads.
   void
