@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/obstacles/box_grid.h>
 #include <exemplar/potential/body_pair_search.h>
 #include <exemplar/potential/nodal_vectors.h>
 
@@ -14,45 +13,6 @@ namespace Exemplar
     constexpr double skin_of_body = 1., greatest_kept_reach_of_body = 2.,
                      greatest_kept_reach_of_bodies = 4.;
     constexpr double more_than_rounding            = 1. + 1e-6;
-
-    template <typename Nodes>
-    AxisBox
-    box_on_way(const Nodes &nodes, const Places &places, const Places &ends)
-    {
-      AxisBox box;
-      for (const unsigned int node : nodes)
-      {
-        box.add(places[node]);
-        box.add(ends[node]);
-      }
-      return box;
-    }
-
-    /// The numbers of the parts with a node among `chosen`.
-    template <typename Parts>
-    std::vector<unsigned int>
-    parts_at(const Parts &parts, const std::vector<char> &chosen)
-    {
-      std::vector<unsigned int> numbers;
-      for (unsigned int i = 0; i < parts.size(); ++i)
-        if (std::any_of(parts[i].nodes.begin(), parts[i].nodes.end(),
-                        [&](const unsigned int node) { return chosen[node] != 0; }))
-          numbers.push_back(i);
-      return numbers;
-    }
-
-    template <typename Parts>
-    BoxGrid
-    grid_of(const Parts                     &parts,
-            const std::vector<unsigned int> &numbers,
-            const Places                    &places,
-            const Places                    &ends)
-    {
-      std::vector<AxisBox> boxes;
-      for (const unsigned int i : numbers)
-        boxes.push_back(box_on_way(parts[i].nodes, places, ends));
-      return BoxGrid(std::move(boxes));
-    }
 
     /// How far the points of the one side of a pair go beside those of the other, at most [m].
     double
@@ -98,57 +58,13 @@ namespace Exemplar
       if (const double width = contacts.width_of(pair); width > 0.)
         found.push_back({ pair, width, 0. });
     };
-    const std::vector<char>         near          = within_reach_of_others(places, ends, reach);
-    const std::vector<unsigned int> own_triangles = parts_at(surface.triangles, near),
-                                    own_edges     = parts_at(surface.edges, near);
-    const BoxGrid triangles = grid_of(surface.triangles, own_triangles, places, ends);
-    for (unsigned int i = 0; i < surface.nodes.size(); ++i)
-      if (const unsigned int node = surface.nodes[i].node; near[node] != 0)
-        triangles.visit(
-            box_on_way(std::array<unsigned int, 1>{ { node } }, places, ends).widened(reach),
-            [&](const unsigned int t) {
-              add({ BodyPairKind::node_triangle, i, own_triangles[t] });
-            });
-    const BoxGrid edges = grid_of(surface.edges, own_edges, places, ends);
-    for (const unsigned int i : own_edges)
-      edges.visit(box_on_way(surface.edges[i].nodes, places, ends).widened(reach),
-                  [&](const unsigned int e)
-                  {
-                    if (own_edges[e] > i)
-                      add({ BodyPairKind::edge_edge, i, own_edges[e] });
-                  });
+    if (!kept.near)
+      kept.near.emplace(surface, contacts.pieces, places);
+    kept.near->move(places, ends, reach);
+    kept.near->visit(contacts.also_self, add);
     std::sort(found.begin(), found.end(),
               [](const auto &a, const auto &b) { return a.pair.key() < b.pair.key(); });
     return found;
-  }
-
-  std::vector<char>
-  BodyPairSearch::within_reach_of_others(const Places &places,
-                                         const Places &ends,
-                                         const double  reach) const
-  {
-    if (contacts.also_self)
-      return std::vector<char>(places.size(), 1);
-    std::vector<AxisBox> of_pieces;
-    for (const ContactSurface::Node &at : surface.nodes)
-    {
-      const unsigned int piece = contacts.pieces[at.node];
-      of_pieces.resize(std::max<std::size_t>(of_pieces.size(), piece + 1));
-      of_pieces[piece].add(places[at.node]);
-      of_pieces[piece].add(ends[at.node]);
-    }
-    std::vector<char> result(places.size(), 0);
-    const auto mark = [&](const auto &part) // whose box may be near though none of its nodes is
-    {
-      const AxisBox box = box_on_way(part.nodes, places, ends).widened(reach);
-      for (unsigned int piece = 0; piece < of_pieces.size(); ++piece)
-        if (piece != contacts.pieces[part.nodes[0]] && box.meets(of_pieces[piece]))
-          for (const unsigned int node : part.nodes)
-            result[node] = 1;
-    };
-    for (const ContactSurface::Triangle &triangle : surface.triangles)
-      mark(triangle);
-    return result;
   }
 
   double

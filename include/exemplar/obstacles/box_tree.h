@@ -95,6 +95,16 @@ namespace Exemplar
         visit_node(0, box, visit);
     }
 
+    /// Call visit(i, j) for each box i that meets the box j of another tree, or for each two of this one, once; in an order that the
+    /// trees decide.
+    template <typename Visit>
+    void
+    visit_pairs(const BoxTree &other, const Visit &visit) const
+    {
+      if (!nodes.empty() && !other.nodes.empty())
+        visit_nodes(0, other, 0, visit);
+    }
+
   private:
     /// Of a half of the items of the node above.
     struct Node
@@ -123,6 +133,43 @@ namespace Exemplar
       for (unsigned int i = node.begin; i < node.end; ++i)
         if (of_items[i].meets(box))
           visit(items[i]);
+    }
+
+    template <typename Visit>
+    void
+    visit_nodes(const unsigned int n,
+                const BoxTree     &other,
+                const unsigned int m,
+                const Visit       &visit) const
+    {
+      const Node &node = nodes[n], &at_other = other.nodes[m];
+      const bool  is_same = this == &other && n == m;
+      if (!node.box.meets(at_other.box))
+        return;
+      if (node.right == 0 && at_other.right == 0)
+      {
+        for (unsigned int i = node.begin; i < node.end; ++i)
+          for (unsigned int j = is_same ? i + 1 : at_other.begin; j < at_other.end; ++j)
+            if (of_items[i].meets(other.of_items[j]))
+              visit(items[i], other.items[j]);
+      }
+      else if (is_same)
+      {
+        visit_nodes(n + 1, other, n + 1, visit);
+        visit_nodes(node.right, other, node.right, visit);
+        visit_nodes(n + 1, other, node.right, visit);
+      }
+      else if (at_other.right == 0
+               || (node.right != 0 && node.end - node.begin > at_other.end - at_other.begin))
+      {
+        visit_nodes(n + 1, other, m, visit);
+        visit_nodes(node.right, other, m, visit);
+      }
+      else
+      {
+        visit_nodes(n, other, m + 1, visit);
+        visit_nodes(n, other, at_other.right, visit);
+      }
     }
 
     std::vector<Node>         nodes;

@@ -4,7 +4,7 @@
 
 #include <exemplar/algebra/vector.h>
 #include <exemplar/obstacles/body_contacts.h>
-#include <exemplar/obstacles/box_tree.h>
+#include <exemplar/obstacles/surface_pairs.h>
 #include <exemplar/potential/touch.h>
 
 #include <optional>
@@ -30,15 +30,17 @@ namespace Exemplar
       double   distance = 0.; ///< then [m]
     };
 
-    std::vector<Candidate> candidates;
-    Places                 places;     ///< of the nodes then; empty: nothing is kept
-    double                 reach = 0.; ///< [m]
+    std::vector<Candidate>      candidates;
+    Places                      places;     ///< of the nodes then; empty: nothing is kept
+    double                      reach = 0.; ///< [m]
+    std::optional<SurfacePairs> near;       ///< since the first search
 
     /// In bytes.
     std::size_t
     memory_consumption() const
     {
-      return candidates.capacity() * sizeof(Candidate) + places.capacity() * sizeof(SpaceVector3);
+      return candidates.capacity() * sizeof(Candidate) + places.capacity() * sizeof(SpaceVector3)
+             + (near ? near->memory_consumption() : 0);
     }
   };
 
@@ -145,10 +147,6 @@ namespace Exemplar
     /// k without the part of almost parallel edges [N].
     double
     full_stiffness(const BodyPair &pair) const;
-
-    /// Which nodes, on these ways, are in the box around another piece and `reach`; all, if pieces may meet themselves.
-    std::vector<char>
-    within_reach_of_others(const Places &places, const Places &ends, double reach) const;
 
     const ContactSurface &surface;
     const BodyContacts   &contacts;

@@ -227,4 +227,40 @@ namespace Exemplar::Testing
       tree.move(boxes);
     }
   }
+
+  TEST(BoxTree, FindsEachPairOnce)
+  {
+    Places     place;
+    const auto make = [&](const unsigned int n, const double size)
+    {
+      std::vector<AxisBox> boxes(n);
+      for (AxisBox &box : boxes)
+      {
+        const SpaceVector3 middle = place();
+        box.add(middle);
+        box.add(middle + size * place());
+      }
+      return boxes;
+    };
+    using Pairs                     = std::multiset<std::pair<unsigned int, unsigned int>>;
+    const std::vector<AxisBox> some = make(300, 0.2), others = make(170, 0.4);
+    const BoxTree              tree(some), other(others);
+    Pairs                      found, expected, found_in_one, expected_in_one;
+    tree.visit_pairs(other,
+                     [&](const unsigned int i, const unsigned int j) { found.emplace(i, j); });
+    tree.visit_pairs(tree, [&](const unsigned int i, const unsigned int j)
+                     { found_in_one.emplace(std::min(i, j), std::max(i, j)); });
+    for (unsigned int i = 0; i < some.size(); ++i)
+    {
+      for (unsigned int j = 0; j < others.size(); ++j)
+        if (some[i].meets(others[j]))
+          expected.emplace(i, j);
+      for (unsigned int j = i + 1; j < some.size(); ++j)
+        if (some[i].meets(some[j]))
+          expected_in_one.emplace(i, j);
+    }
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(found_in_one, expected_in_one);
+    BoxTree().visit_pairs(tree, [](unsigned int, unsigned int) { FAIL(); });
+  }
 } // namespace Exemplar::Testing

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/obstacles/box_grid.h>
 #include <exemplar/potential/barrier.h>
 #include <exemplar/potential/body_pair_search.h>
 #include <exemplar/potential/contact_forces.h>
@@ -270,36 +269,5 @@ namespace Exemplar::Testing
         EXPECT_EQ(with[i].gap.distance, without[i].gap.distance);
       }
     }
-  }
-
-  TEST(BoxGrid, FindsWhatMeets)
-  {
-    std::mt19937                           generator(1);
-    std::uniform_real_distribution<double> number(0., 1.);
-    for (const double large : { 0., 0.9 }) // a few large boxes among small ones
-    {
-      std::vector<AxisBox> boxes(400);
-      for (unsigned int i = 0; i < boxes.size(); ++i)
-      {
-        const SpaceVector3 low = random_vector(generator, 1.);
-        boxes[i].add(low);
-        boxes[i].add(
-            low
-            + (i % 50 == 0 ? large : 0.02)
-                  * dealii::Point<3>(number(generator), number(generator), number(generator)));
-      }
-      const BoxGrid grid(boxes);
-      for (const AxisBox &box : boxes)
-      {
-        std::vector<unsigned int> found, expected;
-        grid.visit(box.widened(0.05), [&](const unsigned int i) { found.push_back(i); });
-        for (unsigned int i = 0; i < boxes.size(); ++i)
-          if (box.widened(0.05).meets(boxes[i]))
-            expected.push_back(i);
-        std::sort(found.begin(), found.end());
-        EXPECT_EQ(found, expected);
-      }
-    }
-    BoxGrid({}).visit(AxisBox(), [](unsigned int) { FAIL(); });
   }
 } // namespace Exemplar::Testing
