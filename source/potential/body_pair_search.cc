@@ -10,7 +10,7 @@ namespace Exemplar
   {
     /// Widths by which more pairs are kept than are asked for, and up to which a search is kept at all: a surface has many pairs with
     /// itself.
-    constexpr double skin_of_body = 1., greatest_kept_reach_of_body = 2.,
+    constexpr double skin_of_body = 0.5, greatest_kept_reach_of_body = 2.,
                      greatest_kept_reach_of_bodies = 4.;
     constexpr double more_than_rounding            = 1. + 1e-6;
 

@@ -36,18 +36,36 @@ namespace Exemplar::Testing
             contacts(parameters(), mesh, fe_space)
       {
         contacts.width = width;
-        surface.triangles.clear();
-        surface.edges.clear();
         surface.nodes.clear();
-        for (const unsigned int node : { 0U, 1U, 2U, 3U })
+        for (const unsigned int node : { 0U, 1U, 2U, 3U, 4U })
           surface.nodes.push_back({ node, 0.5, 0., 300. });
+        // each part belongs to a triangle
         if (kind == BodyPairKind::edge_edge)
         {
-          surface.edges.push_back({ { { 0, 1 } }, 1.2, 0.4, 0., 200. });
-          surface.edges.push_back({ { { 2, 3 } }, 0.7, 0.2, 0., 300. });
+          surface.triangles
+              = { { { { 0, 1, 4 } }, 0, 0.8, 0., 400. }, { { { 2, 3, 4 } }, 0, 0.8, 0., 400. } };
+          set_edges({ { { 0, 1 } },
+                      { { 0, 4 } },
+                      { { 1, 4 } },
+                      { { 2, 3 } },
+                      { { 2, 4 } },
+                      { { 3, 4 } } });
+          surface.edges[0] = { { { 0, 1 } }, 1.2, 0.4, 0., 200. };
+          surface.edges[3] = { { { 2, 3 } }, 0.7, 0.2, 0., 300. };
+          leave_out_all_but({ kind, 0, 3 });
         }
         else
-          surface.triangles.push_back({ { { 0, 1, 2 } }, 0, 0.8, 0., 400. });
+        {
+          surface.triangles
+              = { { { { 0, 1, 2 } }, 0, 0.8, 0., 400. }, { { { 0, 3, 4 } }, 0, 0.8, 0., 400. } };
+          set_edges({ { { 0, 1 } },
+                      { { 0, 2 } },
+                      { { 0, 3 } },
+                      { { 0, 4 } },
+                      { { 1, 2 } },
+                      { { 3, 4 } } });
+          leave_out_all_but({ kind, 3, 0 });
+        }
       }
 
       std::vector<BodyTouch>
@@ -68,6 +86,30 @@ namespace Exemplar::Testing
       }
 
     private:
+      void
+      set_edges(const std::vector<std::array<unsigned int, 2>> &all)
+      {
+        surface.edges.clear();
+        for (const auto &nodes : all)
+          surface.edges.push_back({ nodes, 1., 0.3, 0., 200. });
+      }
+
+      void
+      leave_out_all_but(const BodyPair &wanted)
+      {
+        const auto leave_out = [&](const BodyPair &pair)
+        {
+          if (pair.key() != wanted.key())
+            contacts.own_widths[pair.key()] = 0.;
+        };
+        for (unsigned int i = 0; i < surface.nodes.size(); ++i)
+          for (unsigned int t = 0; t < surface.triangles.size(); ++t)
+            leave_out({ BodyPairKind::node_triangle, i, t });
+        for (unsigned int i = 0; i < surface.edges.size(); ++i)
+          for (unsigned int j = i + 1; j < surface.edges.size(); ++j)
+            leave_out({ BodyPairKind::edge_edge, i, j });
+      }
+
       static ContactParameters
       parameters()
       {
