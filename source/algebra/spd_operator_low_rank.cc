@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/spd_operator.h>
+#include <exemplar/algebra/wrapped_operator.h>
 
 #include <deal.II/base/memory_consumption.h>
 #include <deal.II/lac/full_matrix.h>
@@ -158,11 +158,11 @@ namespace Exemplar
       std::vector<double>                     right_side; ///< for its memory
     };
 
-    class LowRankOperator : public SpdOperator
+    class LowRankOperator : public WrappedOperator
     {
     public:
       LowRankOperator(std::unique_ptr<SpdOperator> matrix, const FreeDofs &free_dofs)
-          : matrix(std::move(matrix)), free_dofs(free_dofs)
+          : WrappedOperator(std::move(matrix)), free_dofs(free_dofs)
       {
       }
 
@@ -174,28 +174,10 @@ namespace Exemplar
         return traits;
       }
 
-      void
-      reinit(const SymmetricPattern &pattern) override
-      {
-        matrix->reinit(pattern);
-      }
-
-      std::vector<double> &
-      values() override
-      {
-        return matrix->values();
-      }
-
       OuterProducts *
       outer_products() override
       {
         return &products;
-      }
-
-      UnknownShear *
-      shear() override
-      {
-        return matrix->shear();
       }
 
       void
@@ -209,6 +191,13 @@ namespace Exemplar
       factorize_roughly(const Vector &positions) override
       {
         matrix->factorize_roughly(positions);
+        correct();
+      }
+
+      void
+      factorize_near(const Vector &positions) override
+      {
+        matrix->factorize_near(positions);
         correct();
       }
 
@@ -283,11 +272,10 @@ namespace Exemplar
         correction = Correction(factors, columns, std::move(Z));
       }
 
-      const std::unique_ptr<SpdOperator> matrix;
-      const FreeDofs                    &free_dofs;
-      OuterProducts                      products;
-      std::vector<double>                factors, columns; ///< F and U since factorize()
-      Correction                         correction;       ///< of the matrix' own solve()
+      const FreeDofs     &free_dofs;
+      OuterProducts       products;
+      std::vector<double> factors, columns; ///< F and U since factorize()
+      Correction          correction;       ///< of the matrix' own solve()
     };
   } // namespace
 

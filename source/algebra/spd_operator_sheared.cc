@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/algebra/spd_operator.h>
+#include <exemplar/algebra/wrapped_operator.h>
 
 namespace Exemplar
 {
@@ -44,11 +44,11 @@ namespace Exemplar
       const UnknownShear                 shear;
     };
 
-    class ShearedOperator : public SpdOperator
+    class ShearedOperator : public WrappedOperator
     {
     public:
       ShearedOperator(std::unique_ptr<SpdOperator> matrix, const std::size_t n)
-          : matrix(std::move(matrix)), n(n)
+          : WrappedOperator(std::move(matrix)), n(n)
       {
       }
 
@@ -60,52 +60,10 @@ namespace Exemplar
         return traits;
       }
 
-      void
-      reinit(const SymmetricPattern &pattern) override
-      {
-        matrix->reinit(pattern);
-      }
-
-      std::vector<double> &
-      values() override
-      {
-        return matrix->values();
-      }
-
-      OuterProducts *
-      outer_products() override
-      {
-        return matrix->outer_products();
-      }
-
       UnknownShear *
       shear() override
       {
         return &of_unknowns;
-      }
-
-      void
-      factorize(const Vector &positions) override
-      {
-        matrix->factorize(positions);
-      }
-
-      void
-      factorize_roughly(const Vector &positions) override
-      {
-        matrix->factorize_roughly(positions);
-      }
-
-      void
-      factorize_near(const Vector &positions) override
-      {
-        matrix->factorize_near(positions);
-      }
-
-      bool
-      leans_on_earlier() const override
-      {
-        return matrix->leans_on_earlier();
       }
 
       void
@@ -116,12 +74,6 @@ namespace Exemplar
         matrix->solve(columns, accuracy);
         for (std::size_t begin = 0; begin < columns.size(); begin += n)
           of_unknowns.from_sheared(columns.data() + begin);
-      }
-
-      bool
-      iterates() const override
-      {
-        return matrix->iterates();
       }
 
       std::unique_ptr<SpdOperator>
@@ -138,9 +90,8 @@ namespace Exemplar
       }
 
     private:
-      const std::unique_ptr<SpdOperator> matrix;
-      const std::size_t                  n;
-      UnknownShear                       of_unknowns;
+      const std::size_t n;
+      UnknownShear      of_unknowns;
     };
   } // namespace
 
