@@ -93,25 +93,22 @@ namespace Exemplar
     ShareDerivatives     by_shares = surface.no_derivatives();
     const BodyPairSearch search    = this->search();
     const Places         at_rest   = search.places_of(fe_space.rest_positions());
-    visit_pairs(positions, 1.,
-                [&](const BodyTouch &touch)
-                {
-                  if (!(touch.gap.distance > 0.))
-                    return;
-                  const ContactSlope slope = slope_of_barrier(touch, at_nodes(touch.gap, along));
-                  add_at_nodes(touch.gap, slope.by_positions, sums.by_positions);
-                  add_origins(touch, slope, by_shares);
-                  if (contacts.own_widths.count(touch.pair.key()) == 0)
-                    return;
-                  // half of the distance at rest, unless the body begins nearer
-                  const Gap then = search.touch_at(touch.pair, at_rest).gap;
-                  for (unsigned int i = 0; i < then.n_nodes
-                                           && std::abs(0.5 * then.distance - touch.gap.width)
-                                                  <= rounding * touch.gap.width;
-                       ++i)
-                    add_to(sums.by_rest_positions, then.nodes[i],
-                           0.5 * slope.by_width * then.coefficients[i] * then.normal);
-                });
+    for (const BodyTouch &touch : touches(positions))
+    {
+      if (!(touch.gap.distance > 0.))
+        continue;
+      const ContactSlope slope = slope_of_barrier(touch, at_nodes(touch.gap, along));
+      add_at_nodes(touch.gap, slope.by_positions, sums.by_positions);
+      add_origins(touch, slope, by_shares);
+      if (contacts.own_widths.count(touch.pair.key()) == 0)
+        continue;
+      const Gap then = search.touch_at(touch.pair, at_rest).gap;
+      if (std::abs(0.5 * then.distance - touch.gap.width) > rounding * touch.gap.width)
+        continue; // the body begins nearer than it is at rest, and has the width of that
+      for (unsigned int i = 0; i < then.n_nodes; ++i)
+        add_to(sums.by_rest_positions, then.nodes[i],
+               0.5 * slope.by_width * then.coefficients[i] * then.normal);
+    }
     surface.carry(by_shares, material, fe_space, sums.by_young, sums.by_rest_positions);
     return sums;
   }

@@ -47,7 +47,7 @@ namespace Exemplar
   ObstacleTerm::add_origins(const Contact      &contact,
                             const ContactSlope &slope,
                             ShareDerivatives   &by_shares,
-                            ObstacleSlopes     &sums) const
+                            TouchingSlopes     &sums) const
   {
     const unsigned int of_body  = contact.pair.of_body;
     const double       by_share = contact_stiffness_factor * slope.by_stiffness;
@@ -60,7 +60,7 @@ namespace Exemplar
       by_shares.triangles[of_body] += by_share;
     else
       by_shares.nodes[of_body] += by_share;
-    ObstacleSlopes::OfObstacle &of_obstacle = sums.of_obstacles[contact.obstacle];
+    TouchingSlopes::OfObstacle &of_obstacle = sums.of_obstacles[contact.obstacle];
     for (unsigned int i = 0; i < contact.gap.n_nodes; ++i)
       of_obstacle.by_place -= slope.by_positions[i] + slope.by_start[i];
     of_obstacle.by_radius -= slope.by_distance;
@@ -75,10 +75,10 @@ namespace Exemplar
              slope.by_width * own->shares[i] * own->normal);
   }
 
-  ObstacleSlopes
+  TouchingSlopes
   ObstacleTerm::slopes(const Vector &positions, const Vector &along, const FESpace &fe_space) const
   {
-    ObstacleSlopes sums(positions.size(), fe_space.n_cells());
+    TouchingSlopes sums(positions.size(), fe_space.n_cells());
     if (have_friction)
       sums.by_start.reinit(positions.size());
     sums.of_obstacles.resize(obstacles.all.size());

@@ -86,9 +86,8 @@ namespace Exemplar
     NoGradients
     no_gradients() const override;
 
-    /// Derivatives of the slope along a displacement, at these positions.
     TouchingSlopes
-    slopes(const Vector &positions, const Vector &along, const FESpace &fe_space) const;
+    slopes(const Vector &positions, const Vector &along, const FESpace &fe_space) const override;
 
     void
     save(boost::archive::binary_oarchive &archive) const override;

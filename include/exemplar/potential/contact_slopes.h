@@ -47,7 +47,7 @@ namespace Exemplar
                         const ContactGradient &along,
                         ContactSlope          &slope);
 
-  /// Derivatives of the slope of all that touches, along a displacement.
+  /// Derivatives of the slope of a term of what touches, along a displacement.
   struct TouchingSlopes
   {
     /// Zeros, but for what friction has.
@@ -62,6 +62,15 @@ namespace Exemplar
     std::vector<double> by_young; ///< by cell
     Vector by_rest_positions;     ///< those in the middles of edges are numbers of their own
     Vector by_first_positions;    ///< by those from which pairs have widths of their own
+
+    /// By what an obstacle is.
+    struct OfObstacle
+    {
+      SpaceVector3 by_place; ///< by a displacement at all times, the start included
+      double       by_radius = 0., by_coefficient = 0.;
+    };
+
+    std::vector<OfObstacle> of_obstacles; ///< empty for bodies
   };
 
   /// The values of a field at the nodes of a gap.
@@ -71,21 +80,6 @@ namespace Exemplar
   /// Add to a field at the nodes of a gap.
   void
   add_at_nodes(const Gap &gap, const ContactGradient &derivatives, Vector &to);
-
-  /// Derivatives of the slope of all obstacles along a displacement.
-  struct ObstacleSlopes : TouchingSlopes
-  {
-    using TouchingSlopes::TouchingSlopes;
-
-    /// By what an obstacle is.
-    struct OfObstacle
-    {
-      SpaceVector3 by_place; ///< by a displacement at all times, the start included
-      double       by_radius = 0., by_coefficient = 0.;
-    };
-
-    std::vector<OfObstacle> of_obstacles;
-  };
 } // namespace Exemplar
 
 #endif

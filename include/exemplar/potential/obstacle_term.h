@@ -176,11 +176,8 @@ namespace Exemplar
       found.positions.reinit(0);
     }
 
-    /// Derivatives of the slope along a displacement, of barriers and of friction whose forces are those at these
-    /// positions, in a mesh with this space. Set_time() must have told the time, and begin_step() the start where there
-    /// is friction.
-    ObstacleSlopes
-    slopes(const Vector &positions, const Vector &along, const FESpace &fe_space) const;
+    TouchingSlopes
+    slopes(const Vector &positions, const Vector &along, const FESpace &fe_space) const override;
 
   private:
     /// What touches() has found last, with obstacles as they stand.
@@ -269,7 +266,7 @@ namespace Exemplar
     add_origins(const Contact      &contact,
                 const ContactSlope &slope,
                 ShareDerivatives   &by_shares,
-                ObstacleSlopes     &sums) const;
+                TouchingSlopes     &sums) const;
 
     /// In the step, or outside of one at the time that is set.
     bool

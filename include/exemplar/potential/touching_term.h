@@ -5,6 +5,7 @@
 #include <exemplar/body/time_integrator.h>
 #include <exemplar/obstacles/contact_surface.h>
 #include <exemplar/potential/contact_forces.h>
+#include <exemplar/potential/contact_slopes.h>
 #include <exemplar/potential/potential_term.h>
 
 #include <functional>
@@ -52,6 +53,12 @@ namespace Exemplar
 
     double
     rounding_force(const Vector &positions) const override;
+
+    /// Derivatives of the slope along a displacement, of barriers and of friction whose forces are those at these
+    /// positions, in a mesh with this space. Set_time() must have told the time, and begin_step() the start where there
+    /// is friction.
+    virtual TouchingSlopes
+    slopes(const Vector &positions, const Vector &along, const FESpace &fe_space) const = 0;
 
     /// Of barriers and friction on the nodes [N].
     Vector

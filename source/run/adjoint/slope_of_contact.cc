@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/potential/body_contact_term.h>
 #include <exemplar/run/adjoint/slope_of_contact.h>
 
 #include <algorithm>
@@ -33,30 +32,21 @@ namespace Exemplar
   add_slope_of_contact(const Problem &problem, const Direction &direction, SlopeDerivatives &sums)
   {
     const FESpace &fe_space = problem.body.fe_space;
-    const auto     add      = [&](TouchingSlopes &slopes)
+    for (const TouchingTerm *const term : touching_terms(problem))
     {
+      TouchingSlopes slopes = term->slopes(problem.state.positions, direction.positions, fe_space);
       sums.by_positions += slopes.by_positions;
       for (std::size_t cell = 0; cell < slopes.by_young.size(); ++cell)
         sums.by_young[cell] += slopes.by_young[cell];
-      Vector &by_rest = slopes.by_rest_positions;
       if (begins_at_rest(problem))
-        by_rest += slopes.by_first_positions;
-      add_by_vertices(fe_space.numbering(), by_rest, sums.by_rest_positions);
-    };
-    if (const ObstacleTerm *const term = find_obstacle_term(problem))
-    {
-      ObstacleSlopes slopes = term->slopes(problem.state.positions, direction.positions, fe_space);
-      add(slopes);
-      sums.by_start     = std::move(slopes.by_start);
-      sums.of_obstacles = std::move(slopes.of_obstacles);
-    }
-    for (const TouchingTerm *const term : touching_terms(problem))
-      if (const auto *const of_bodies = dynamic_cast<const BodyContactTerm *>(term))
+        slopes.by_rest_positions += slopes.by_first_positions;
+      add_by_vertices(fe_space.numbering(), slopes.by_rest_positions, sums.by_rest_positions);
+      if (!slopes.of_obstacles.empty())
       {
-        TouchingSlopes slopes
-            = of_bodies->slopes(problem.state.positions, direction.positions, fe_space);
-        add(slopes);
+        sums.by_start     = std::move(slopes.by_start);
+        sums.of_obstacles = std::move(slopes.of_obstacles);
       }
+    }
   }
 
   bool

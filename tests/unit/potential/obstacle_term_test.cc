@@ -240,7 +240,7 @@ namespace Exemplar::Testing
       const double by_end   = difference([&](const double h) { return slope(moved(x, h), start); });
       const double by_start = difference([&](const double h) { return slope(x, moved(start, h)); });
       slope(x, start);
-      const ObstacleSlopes found = above.term->slopes(x, along, above.problem.body.fe_space);
+      const TouchingSlopes found = above.term->slopes(x, along, above.problem.body.fe_space);
       EXPECT_NEAR(found.by_positions * way, by_end, 1e-6 * std::abs(by_end));
       EXPECT_NEAR(found.by_start * way, by_start, 1e-6 * std::abs(by_start));
       above.term->leave_step();

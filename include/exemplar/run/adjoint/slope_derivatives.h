@@ -44,7 +44,7 @@ namespace Exemplar
     std::array<double, 3> by_gravity{};
     Vector
         by_start; ///< by what slips are counted from, x_star of the time scheme; empty without friction
-    std::vector<ObstacleSlopes::OfObstacle> of_obstacles; ///< empty without obstacles
+    std::vector<TouchingSlopes::OfObstacle> of_obstacles; ///< empty without obstacles
 
     /// Add what follows from changes of the shape gradients of a cell: the derivative by F times
     /// F^T's, F^T by_F.
