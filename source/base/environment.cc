@@ -21,18 +21,24 @@ namespace Exemplar
       return reinterpret_cast<Function *>(dlsym(RTLD_DEFAULT, name));
     }
 
-    /// Set the number of levels of OpenMP's parallel regions that may have several threads, in this
-    /// thread; returns the number before. Libraries bring OpenMP, or there is none.
+    /// Set what a library counts, if it is loaded and has functions of these names; returns the number before, or that it has without.
     int
-    set_openmp_levels(const int n)
+    exchange(const char *getter, const char *setter, const int n, const int without)
     {
-      const auto get = find_function<int()>("omp_get_max_active_levels");
-      const auto set = find_function<void(int)>("omp_set_max_active_levels");
+      const auto get = find_function<int()>(getter);
+      const auto set = find_function<void(int)>(setter);
       if (get == nullptr || set == nullptr)
-        return 0;
+        return without;
       const int before = get();
       set(n);
       return before;
+    }
+
+    /// Set the number of levels of OpenMP's parallel regions that may have several threads, in this thread; returns the number before.
+    int
+    set_openmp_levels(const int n)
+    {
+      return exchange("omp_get_max_active_levels", "omp_set_max_active_levels", n, 0);
     }
 
     /// The best core type of OpenBLAS for this CPU, by its instruction sets.
@@ -115,13 +121,7 @@ namespace Exemplar
   int
   set_blas_threads(const int n)
   {
-    const auto get = find_function<int()>("openblas_get_num_threads");
-    const auto set = find_function<void(int)>("openblas_set_num_threads");
-    if (get == nullptr || set == nullptr)
-      return 1;
-    const int before = get();
-    set(n);
-    return before;
+    return exchange("openblas_get_num_threads", "openblas_set_num_threads", n, 1);
   }
 
   void
