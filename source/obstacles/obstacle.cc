@@ -39,7 +39,8 @@ namespace Exemplar
     {
       if (parameters.surface_file().empty())
         return parse_shape(parameters.shape, "Obstacles/" + parameters.name + "/Shape");
-      return shape_of(TriangleSurface{ surface->vertices, surface->triangles, {} });
+      return shape_of(TriangleSurface{ surface->vertices, surface->triangles, {} },
+                      !surface->times.empty());
     }
 
     /// Throws UserError for triangles that another edge of the surface passes through.

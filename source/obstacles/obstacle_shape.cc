@@ -181,8 +181,37 @@ namespace Exemplar
     return first == std::string::npos ? "" : text.substr(first);
   }
 
+  namespace
+  {
+    SpaceVector3
+    vertex_of(const TriangleSurface &surface, const TriangleSide &side, const unsigned int ahead)
+    {
+      const auto  &triangle = surface.triangles[side.triangle];
+      SpaceVector3 x;
+      for (unsigned int c = 0; c < 3; ++c)
+        x[c] = surface.vertices[triangle[(side.corner + ahead) % 3]][c];
+      return x;
+    }
+
+    /// Whether the triangles at both sides of an edge lie in one plane, but for rounding, and not one on the other.
+    bool
+    are_in_one_plane(const TriangleSurface &surface,
+                     const TriangleSide    &side,
+                     const TriangleSide    &other)
+    {
+      constexpr double   rounding = 1e-14;
+      const SpaceVector3 a = vertex_of(surface, side, 0), edge = vertex_of(surface, side, 1) - a,
+                         apex = vertex_of(surface, side, 2), beyond = vertex_of(surface, other, 2);
+      const SpaceVector3 normal       = dealii::cross_product_3d(edge, apex - a),
+                         other_normal = dealii::cross_product_3d(beyond - a, edge);
+      const double size   = a.norm() + edge.norm() + (apex - a).norm() + (beyond - a).norm();
+      const double height = std::abs(normal * (beyond - a));
+      return height <= rounding * size * normal.norm() && normal * other_normal > 0.;
+    }
+  } // namespace
+
   ObstacleShape
-  shape_of(const TriangleSurface &surface)
+  shape_of(const TriangleSurface &surface, const bool deforms)
   {
     ObstacleShape    shape;
     std::vector<int> number(surface.vertices.size(), -1);
@@ -193,7 +222,6 @@ namespace Exemplar
         if (number[v] < 0)
         {
           number[v] = static_cast<int>(shape.vertices.size());
-          shape.points.push_back(static_cast<unsigned int>(shape.vertices.size()));
           SpaceVector3 x;
           for (unsigned int c = 0; c < 3; ++c)
             x[c] = surface.vertices[v][c];
@@ -209,14 +237,38 @@ namespace Exemplar
         corner[k] = static_cast<unsigned int>(number[triangle[k]]);
       shape.triangles.push_back(corner);
     }
-    for_each_edge(sorted_sides(surface),
+    UnionFind                       parts(surface.triangles.size());
+    const std::vector<TriangleSide> sides = sorted_sides(surface);
+    if (!deforms)
+      for_each_edge(sides,
+                    [&](const TriangleSide *first, const TriangleSide *last)
+                    {
+                      if (last - first == 2 && are_in_one_plane(surface, first[0], first[1]))
+                        parts.join(first[0].triangle, first[1].triangle);
+                    });
+    for (unsigned int t = 0; t < surface.triangles.size(); ++t)
+      shape.flat_parts.push_back(parts.root(t));
+    std::vector<char> has_edge(shape.vertices.size(), 0);
+    for_each_edge(sides,
                   [&](const TriangleSide *first, const TriangleSide *last)
                   {
-                    const auto &[i, j] = first->vertices;
-                    shape.edges.push_back({ { static_cast<unsigned int>(number[i]),
-                                              static_cast<unsigned int>(number[j]) } });
-                    shape.is_closed = shape.is_closed && last - first == 2;
+                    const bool is_of_two = last - first == 2;
+                    shape.is_closed      = shape.is_closed && is_of_two;
+                    if (is_of_two
+                        && shape.flat_parts[first[0].triangle]
+                               == shape.flat_parts[first[1].triangle])
+                      return;
+                    std::array<unsigned int, 2> edge{};
+                    for (unsigned int k = 0; k < 2; ++k)
+                    {
+                      edge[k]           = static_cast<unsigned int>(number[first->vertices[k]]);
+                      has_edge[edge[k]] = 1;
+                    }
+                    shape.edges.push_back(edge);
                   });
+    for (unsigned int v = 0; v < shape.vertices.size(); ++v)
+      if (has_edge[v] != 0)
+        shape.points.push_back(v);
     shape.middle = 0.5 * (low + high);
     for (SpaceVector3 &x : shape.vertices)
       x -= shape.middle;

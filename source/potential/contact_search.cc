@@ -316,8 +316,27 @@ namespace Exemplar
                        const PairCorners  x  = corners(pair, places);
                        const PairDistance at = distance(pair, x.places);
                        if (at.distance < range * width(pair))
-                         contacts.push_back(contact(pair, x, at));
+                         append_nearest(contact(pair, x, at), contacts);
                      });
+  }
+
+  void
+  ContactSearch::append_nearest(Contact contact, std::vector<Contact> &contacts)
+  {
+    // those of a node follow one another
+    for (auto other = contacts.rbegin();
+         other != contacts.rend() && other->obstacle == contact.obstacle
+         && other->pair.kind == PairKind::node_triangle
+         && other->pair.of_body == contact.pair.of_body
+         && contact.pair.kind == PairKind::node_triangle;
+         ++other)
+      if (other->pair.flat_part == contact.pair.flat_part)
+      {
+        if (contact.gap.distance < other->gap.distance)
+          *other = std::move(contact);
+        return;
+      }
+    contacts.push_back(std::move(contact));
   }
 
   double

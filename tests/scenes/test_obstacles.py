@@ -209,6 +209,30 @@ class Frictional(ObstacleTest):
         self.assertTrue(all(a <= b for a, b in zip(heats, heats[1:])))
         self.assertAlmostEqual(rows[-1]["energy_dissipated"] / heats[-1], 1, places=12)
 
+    def test_a_floor_of_many_triangles_is_as_smooth_as_a_plane(self):
+        rng, n = np.random.default_rng(3), 12
+        lines = []
+        for i in range(n + 1):
+            for j in range(n + 1):
+                x, y = -0.3 + 1.2 * i / n, -0.4 + 1.2 * j / n
+                if 0 < i < n and 0 < j < n:
+                    x, y = np.array([x, y]) + rng.uniform(-0.03, 0.03, 2)
+                lines.append(f"v {x} {y} -0.05\n")
+        for i in range(n):
+            for j in range(n):
+                a = i * (n + 1) + j + 1
+                lines.append(f"f {a} {a + n + 1} {a + n + 2}\nf {a} {a + n + 2} {a + 1}\n")
+        self.write("ground.obj", "".join(lines))
+        ends = []
+        for shape in ("plane 0 0 -0.05  0 0 1", "surface ground.obj"):
+            output = self.solve({**CUBE, "Obstacles/floor/Shape": shape, "Obstacles/floor/Friction": "0.3", "Initial/Velocity": "1.5; 0.5; 0",
+                                 "Time/Step": "0.002", "Time/End": "0.5", "Solver/Step tolerance": "1e-8"})
+            ends.append(np.array(list(nodes_of(output / "final.msh").values())))
+        way = ends[0][0] - np.array([0, 0, 0])
+        print("slides by", way, "and differs by", np.abs(ends[1] - ends[0]).max())
+        self.assertGreater(way[0], 0.2)
+        self.assertLess(np.abs(ends[1] - ends[0]).max(), 1e-6)
+
     def test_an_oblique_impact_has_the_ratio_of_friction(self):
         rows = read_csv(self.solve({**CUBE, "Obstacles/floor/Friction": "0.2", "Obstacles/floor/Shape": "plane 0 0 -0.06 0 0 1",
                                     "Initial/Velocity": "5; 0; -2", "Time/Step": "0.001", "Time/End": "0.03", "Loads/Gravity": None,

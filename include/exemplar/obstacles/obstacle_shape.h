@@ -34,10 +34,12 @@ namespace Exemplar
     std::vector<SpaceVector3>                vertices;   ///< [m]
     std::vector<unsigned int>                points;
     std::vector<std::array<unsigned int, 2>> edges;
-    std::vector<std::array<unsigned int, 3>> triangles;        ///< of a surface
-    double                                   radius    = 0.;   ///< around points and edges [m]
-    bool                                     is_closed = true; ///< whether it has an inside
-    bool bounds = false; ///< whether the body is inside of it, as in a box
+    std::vector<std::array<unsigned int, 3>> triangles; ///< of a surface
+    std::vector<unsigned int>
+        flat_parts; ///< of the triangles: the first triangle of the part in one plane that each is in
+    double radius    = 0.;    ///< around points and edges [m]
+    bool   is_closed = true;  ///< whether it has an inside
+    bool   bounds    = false; ///< whether the body is inside of it, as in a box
 
     /// Whether nodes may meet the edges: those of a capsule.
     bool
@@ -62,9 +64,10 @@ namespace Exemplar
   ObstacleShape
   parse_shape(const std::string &text, const std::string &key);
 
-  /// The shape of a surface [m], of which vertices that no triangle uses are left out.
+  /// The shape of a surface [m], of which vertices that no triangle uses are left out. Neighbours in one plane, but for rounding, are
+  /// one flat part unless the surface deforms: edges and points within it are none of the obstacle.
   ObstacleShape
-  shape_of(const TriangleSurface &surface);
+  shape_of(const TriangleSurface &surface, bool deforms);
 
   /// The FILE of "surface FILE"; empty for other shapes.
   std::string

@@ -28,11 +28,13 @@ namespace Exemplar
   {
     PairKind     kind;
     unsigned int of_body, of_obstacle;
+    unsigned int flat_part = of_obstacle; ///< of a triangle: see ObstacleShape
 
+    /// With all triangles of a flat part a node is one pair.
     PairKey
     key() const
     {
-      return static_cast<PairKey>(kind) << 61U | static_cast<PairKey>(of_body) << 32U | of_obstacle;
+      return static_cast<PairKey>(kind) << 61U | static_cast<PairKey>(of_body) << 32U | flat_part;
     }
   };
 
@@ -206,6 +208,10 @@ namespace Exemplar
     Contact
     contact(const ContactPair &pair, const PairCorners &corners, const PairDistance &at) const;
 
+    /// Append a contact; of a node with a flat part the nearest one alone, so that a seam within it does not push twice.
+    static void
+    append_nearest(Contact contact, std::vector<Contact> &contacts);
+
     /// `longest`, or less, for n nodes that go these ways, and the obstacle's vertices one of that length.
     double
     max_step(const ContactPair                 &pair,
@@ -281,10 +287,11 @@ namespace Exemplar
         continue;
       if (shape.half_sizes)
         visit(ContactPair{ PairKind::node_box, i, 0 });
-      standing.triangles.visit(box,
-                               [&](const unsigned int t) {
-                                 visit(ContactPair{ PairKind::node_triangle, i, t });
-                               });
+      standing.triangles.visit(
+          box,
+          [&](const unsigned int t) {
+            visit(ContactPair{ PairKind::node_triangle, i, t, shape.flat_parts[t] });
+          });
       if (shape.edges_meet_nodes())
         standing.edges.visit(box,
                              [&](const unsigned int e) {

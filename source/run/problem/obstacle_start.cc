@@ -7,7 +7,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace Exemplar
 {
@@ -80,6 +82,12 @@ namespace Exemplar
                                                StartWidth{ at.distance, at.nearest.a,
                                                            standing.pose.rotation * at.normal });
                         });
+        // of the triangles of a flat part the nearest counts
+        std::sort(found.begin(), found.end(),
+                  [](const auto &one, const auto &other) {
+                    return std::tie(one.first, one.second.width)
+                           < std::tie(other.first, other.second.width);
+                  });
         widths.insert(found.begin(), found.end());
       }
 
