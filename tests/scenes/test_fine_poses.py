@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Poses that move a part of the surface smaller than the cells are warned of."""
+"""Poses that move or pinch a part of the surface smaller than the cells are warned of."""
 
 import csv
 import math
@@ -54,6 +54,22 @@ class FinePoses(SceneTest):
             self.assertEqual(run.status, 0, run.stderr)
             self.assertTrue(any(f"the pose is hardly followed: vertex {found[1]} (at" in text
                                 for text in read_summary(self.directory / output)["warnings"]))
+
+    def test_an_edge_that_a_pose_pinches_is_no_sheet_that_hangs_together(self):
+        """A vertex moved to a neighbour, by all but 2 % of the edge: far smaller than cells are."""
+        _, faces = sphere(5)
+        a, b = faces[len(faces) // 2][:2]
+        pinched = list(self.vertices)
+        pinched[a] = tuple(y + .02 * (x - y) for x, y in zip(self.vertices[a], self.vertices[b]))
+        write_obj(self.directory / "wart.obj", pinched, faces)
+        _, warnings = self.pose(1500)
+        found = re.search(r"Warning: wart.obj: the edge between vertices (\d+) and (\d+) .* becomes (\S+) times as long as the pose has it: "
+                          r"the pose shortens it to (\S+) % of its length at rest", warnings)
+        self.assertIsNotNone(found, warnings)
+        self.assertEqual({int(found[1]), int(found[2])}, {a + 1, b + 1})
+        self.assertAlmostEqual(float(found[4]), 2, 2)
+        self.assertGreater(float(found[3]), 3)
+        self.assertNotIn("hang together", warnings)
 
 
 if __name__ == "__main__":

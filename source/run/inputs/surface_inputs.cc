@@ -60,10 +60,10 @@ namespace Exemplar
     std::string
     to_text(const PoseQuality &q)
     {
-      return Json{ q.n_inverted, q.min_det,      q.max_det,    q.min_stretch, q.stretch_1,
-                   q.stretch_99, q.max_stretch,  q.mean_error, q.max_error,   q.rotation,
-                   q.shift,      q.longest_edge, q.motion,     q.edge,        q.edge_place,
-                   q.vertex,     q.vertex_place }
+      return Json{ q.n_inverted, q.min_det,      q.max_det,      q.min_stretch, q.stretch_1,
+                   q.stretch_99, q.max_stretch,  q.mean_error,   q.max_error,   q.rotation,
+                   q.shift,      q.longest_edge, q.edge_at_rest, q.motion,      q.edge,
+                   q.edge_place, q.vertex,       q.vertex_place }
           .dump();
     }
 
@@ -76,7 +76,8 @@ namespace Exemplar
       std::size_t i = 1;
       for (double *const number :
            { &q.min_det, &q.max_det, &q.min_stretch, &q.stretch_1, &q.stretch_99, &q.max_stretch,
-             &q.mean_error, &q.max_error, &q.rotation, &q.shift, &q.longest_edge, &q.motion })
+             &q.mean_error, &q.max_error, &q.rotation, &q.shift, &q.longest_edge, &q.edge_at_rest,
+             &q.motion })
         *number = n.at(i++);
       q.edge         = n.at(i).get<decltype(q.edge)>();
       q.edge_place   = n.at(i + 1).get<decltype(q.edge_place)>();

@@ -242,6 +242,7 @@ namespace Exemplar
             ratio > quality.longest_edge)
         {
           quality.longest_edge = ratio;
+          quality.edge_at_rest = skin->place_at_rest(a).distance(skin->place_at_rest(b)) / own;
           quality.edge         = { { a + 1U, b + 1U } };
           quality.edge_place   = plus(vertices[a], .5, minus(vertices[b], vertices[a]));
         }

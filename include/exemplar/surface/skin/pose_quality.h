@@ -20,6 +20,7 @@ namespace Exemplar
     /// Greatest displacement of a vertex from rest, less the rigid motion, over the diagonal.
     double motion       = 0.;
     double longest_edge = 0.; ///< carried over posed length, greatest ratio of an edge
+    double edge_at_rest = 0.; ///< length of that edge at rest over posed length
     /// Its vertices, from 1, and the middle between them in the pose [unit of the file].
     std::array<std::size_t, 2> edge{};
     std::array<double, 3>      edge_place{};
@@ -28,7 +29,7 @@ namespace Exemplar
     unsigned int iterations = 0, releases = 0;
 
     /// An edge that becomes longer than this times its length in the file hangs on a part of the
-    /// body which is not its own.
+    /// body which is not its own, or the pose shortens it so much that cells cannot follow.
     static constexpr double tolerable_edge = 3.;
 
     /// A sentence on the longest edge, if it is longer than that; otherwise empty.
