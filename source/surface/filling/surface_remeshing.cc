@@ -41,17 +41,17 @@ namespace Exemplar
     }
 
     /// Restores the order of the shells, by which regions are numbered: remeshing changes the order
-    /// of triangles.
-    void
+    /// of triangles. Returns which triangle each one was before.
+    std::vector<std::size_t>
     restore_order(const TriangleSurface &original, TriangleSurface &remeshed)
     {
-      unsigned int n_shells = 0;
-      const auto   shell_of = matching_shells(original, remeshed, n_shells);
-      if (n_shells < 2)
-        return;
-      const TriangleSurface    before = remeshed;
-      std::vector<std::size_t> order(shell_of.size());
+      unsigned int             n_shells = 0;
+      const auto               shell_of = matching_shells(original, remeshed, n_shells);
+      std::vector<std::size_t> order(remeshed.triangles.size());
       std::iota(order.begin(), order.end(), 0);
+      if (n_shells < 2)
+        return order;
+      const TriangleSurface before = remeshed;
       std::stable_sort(order.begin(), order.end(),
                        [&](const std::size_t a, const std::size_t b)
                        { return shell_of[a] < shell_of[b]; });
@@ -60,6 +60,7 @@ namespace Exemplar
         remeshed.triangles[t] = before.triangles[order[t]];
         remeshed.groups[t]    = before.groups[order[t]];
       }
+      return order;
     }
 
     bool
@@ -219,21 +220,21 @@ namespace Exemplar
       if (std::find(wanted.begin(), wanted.end(), Treatment::thinned) == wanted.end())
         break;
       ++n_remeshed;
-      std::vector<Treatment> treatments = wanted;
-      TriangleSurface        thinned    = thin(surface, fine, treatments);
-      restore_order(surface, thinned);
-      std::vector<bool> bad(held.size(), false);
-      const bool        is_sound = is_faultless(thinned);
-      const bool        has_bad  = is_sound ? mark_closed_gaps(thinned, .5 * distance, bad)
-                                            : mark_near_intersections(surface, thinned, distance, bad);
+      std::vector<Treatment>         treatments = wanted;
+      TriangleSurface                thinned    = thin(surface, fine, treatments);
+      const std::vector<std::size_t> order      = restore_order(surface, thinned);
+      std::vector<bool>              bad(held.size(), false);
+      const bool                     is_sound = is_faultless(thinned);
+      const bool has_bad = is_sound ? mark_closed_gaps(thinned, .5 * distance, bad)
+                                    : mark_near_intersections(surface, thinned, distance, bad);
       if (!is_sound && !has_bad)
         break;
       if (!has_bad)
       {
         surface = std::move(thinned);
         held.clear();
-        for (const Treatment treatment : treatments)
-          held.push_back(treatment != Treatment::free);
+        for (const std::size_t before : order)
+          held.push_back(treatments[before] != Treatment::free);
         break;
       }
       for (std::size_t t = 0; t < wanted.size(); ++t)
