@@ -161,8 +161,8 @@ namespace Exemplar::Testing
       for (int j = 0; j + 1 < n; ++j)
         for (int i = 0; i + 1 < n; ++i)
         {
-          add_triangle({ node(i, j), node(i + 1, j), node(i + 1, j + 1) });
-          add_triangle({ node(i, j), node(i + 1, j + 1), node(i, j + 1) });
+          add_triangle({ { node(i, j), node(i + 1, j), node(i + 1, j + 1) } });
+          add_triangle({ { node(i, j), node(i + 1, j + 1), node(i, j + 1) } });
         }
       return pattern_of(entries, 3 * n * n + static_cast<int>(slopes.size()));
     }
