@@ -76,10 +76,10 @@ namespace Exemplar
     const OneOpenMPThread             one_thread;
     cholmod_sparse                    matrix = cholmod_view(pattern, nullptr);
     cholmod_common *const             state  = &common;
-    if (!order.empty())
+    if (!order.empty() || pattern.is_of_surface)
     {
       state->nmethods           = 1;
-      state->method[0].ordering = CHOLMOD_GIVEN;
+      state->method[0].ordering = order.empty() ? CHOLMOD_NESDIS : CHOLMOD_GIVEN;
     }
     int *const given = order.empty() ? nullptr : const_cast<int *>(order.data()); // it is only read
     cholmod_factor *factor = cholmod_analyze_p(&matrix, given, nullptr, 0, state);

@@ -59,6 +59,7 @@ namespace Exemplar
     }
     SymmetricPattern result;
     result.products_are_apart = in_parts; // of terms
+    result.is_of_surface      = true;
     result.column_start.push_back(0);
     for (const unsigned int dof : parts.free_dofs.local_list())
     {

@@ -21,7 +21,7 @@ namespace Exemplar
     constexpr unsigned int max_contact_iterations = 14; ///< the same where gaps matter
     constexpr unsigned int max_metrics            = 2;  ///< that a step may ask for
     constexpr unsigned int max_short_metrics
-        = 8; ///< the same, of bodies that do not keep their tangent
+        = 12; ///< the same, of bodies that do not keep their tangent
     constexpr unsigned int max_changes  = 30; ///< of terms in a step
     constexpr unsigned int max_halvings = 5;
     /// So often what terms lag is renewed before a step is solved. Without a bound it jumps to and fro as the positions do,
@@ -195,7 +195,7 @@ namespace Exemplar
   bool
   QuasiNewton::should_have_another(const double residual, const double gradient_ratio) const
   {
-    if (potential.get_body().keeps_its_tangent() || history.steps == 0 || in_contact
+    if (potential.get_body().keeps_its_tangent() || in_contact
         || !(residual > parameters.step_tolerance))
       return false;
     return !(gradient_ratio < 1.)

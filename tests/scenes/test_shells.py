@@ -126,14 +126,14 @@ class Shells(SceneTest):
         self.assertEqual((one / "final.msh").read_bytes(), (half / "final.msh").read_bytes())
 
     def test_a_sheet_that_is_swung_takes_few_iterations(self):
-        """Its metric is renewed as soon as that pays: without that steps take twice as many."""
+        """Its metric is renewed as soon as that pays, one made in the step too: without that steps take twice as many."""
         points, triangles = grid(20, 20, "alternating")
         self.write_shell("rest.obj", [(x - .5, y - .5, 0.) for x, y in points], triangles)
         rows = read_csv(self.solve_shell({"Scene": "dynamic", "Time/Step": "0.016", "Time/End": "0.48", "Material/Density": "300", "Material/Young's modulus": "5e6",
                                           "Loads/Gravity": "0, -9.81, 0", "Handles/Names": "side", "Handles/side/Select": "box -1 0.499 -1 1 1 1",
-                                          "Handles/side/Motion": "0; 0; 0.3*sin(2*pi*t)"}))[11:]
-        self.assertLess(sum(row["iterations"] for row in rows) / len(rows), 7.)
-        self.assertLess(sum(row["factorizations"] for row in rows) / len(rows), 2.4)
+                                          "Handles/side/Motion": "0; 0; 0.3*sin(2*pi*t)"}))[1:]
+        self.assertLess(sum(row["iterations"] for row in rows) / len(rows), 6.6)
+        self.assertLess(sum(row["factorizations"] for row in rows) / len(rows), 2.7)
 
     def test_a_fold_beyond_half_a_turn_is_remembered(self):
         """A strip of three columns, folded at the first line between them by 234 degrees, through itself; the last column is free."""

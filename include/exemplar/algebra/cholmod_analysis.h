@@ -52,8 +52,8 @@ namespace Exemplar
   cholmod_view(const SymmetricPattern &pattern, const double *values);
 
   /// CHOLMOD's symbolic analysis of a pattern in this order of elimination, which it refines, or, if
-  /// that is empty, in the ordering with the least expected fill. The caller frees the factor. Throws
-  /// SolverFailure.
+  /// that is empty, in the ordering with the least expected fill, of a surface by nested dissection. The caller frees the factor.
+  /// Throws SolverFailure.
   cholmod_factor *
   analyze(const SymmetricPattern &pattern,
           CholmodCommon          &common,

@@ -26,6 +26,8 @@ namespace Exemplar
     /// Whether terms of the matrix are given as OuterProducts instead, whose couplings are not in
     /// the pattern.
     bool products_are_apart = false;
+    /// Whether its unknowns lie on a surface. Small separators then halve it, by which analyze() orders it.
+    bool is_of_surface = false;
     /// The pattern without couplings that come and go, in whose order of elimination they may stand; null: it has
     /// none of these.
     std::shared_ptr<const SymmetricPattern> plain = {};

@@ -139,8 +139,8 @@ namespace Exemplar
     bool
     is_slow() const;
 
-    /// Whether a metric of an earlier step is to be replaced within this one, because it would take more iterations to the tolerance, at
-    /// the rate of the last one, than another costs. Of a body that does not keep its tangent alone.
+    /// Whether a metric is to be replaced within the step, because it would take more iterations to the tolerance, at the rate of the
+    /// last one, than another costs. Of a body that does not keep its tangent alone.
     bool
     should_have_another(double residual, double gradient_ratio) const;
 

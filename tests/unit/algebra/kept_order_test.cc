@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
@@ -131,6 +133,51 @@ namespace Exemplar::Testing
       pattern.plain = std::make_shared<const SymmetricPattern>(pattern_of(grid(30, {}), 900));
       beside_plain->reinit(pattern);
       EXPECT_EQ(by_itself->traits().n_operations, beside_plain->traits().n_operations);
+    }
+
+    /// The unknowns of a sheet of 60 x 60 squares that are cut into two triangles: three at a node, one at the middle of an edge.
+    SymmetricPattern
+    pattern_of_sheet()
+    {
+      constexpr int                      n    = 61;
+      const auto                         node = [](const int i, const int j) { return j * n + i; };
+      std::map<std::pair<int, int>, int> slopes;
+      Entries                            entries;
+      const auto                         add_triangle = [&](const std::array<int, 3> &nodes)
+      {
+        std::vector<int> unknowns;
+        for (int i = 0; i < 3; ++i)
+        {
+          const auto edge = std::minmax(nodes[i], nodes[(i + 1) % 3]);
+          const int  next = 3 * n * n + static_cast<int>(slopes.size());
+          unknowns.push_back(slopes.insert({ edge, next }).first->second);
+          for (int c = 0; c < 3; ++c)
+            unknowns.push_back(3 * nodes[i] + c);
+        }
+        for (const int a : unknowns)
+          for (const int b : unknowns)
+            entries[{ std::min(a, b), std::max(a, b) }] += a == b ? 1. : 0.;
+      };
+      for (int j = 0; j + 1 < n; ++j)
+        for (int i = 0; i + 1 < n; ++i)
+        {
+          add_triangle({ { node(i, j), node(i + 1, j), node(i + 1, j + 1) } });
+          add_triangle({ { node(i, j), node(i + 1, j + 1), node(i, j + 1) } });
+        }
+      return pattern_of(entries, 3 * n * n + static_cast<int>(slopes.size()));
+    }
+
+    TEST(KeptOrder, SurfacesAreOrderedByTheirSeparators)
+    {
+      SymmetricPattern pattern = pattern_of_sheet();
+      const auto by_degrees = make_cholesky_operator(), by_separators = make_cholesky_operator(),
+                 again = make_cholesky_operator();
+      by_degrees->reinit(pattern);
+      pattern.is_of_surface = true;
+      by_separators->reinit(pattern);
+      again->reinit(pattern);
+      EXPECT_LT(1.3 * by_separators->traits().n_operations, by_degrees->traits().n_operations);
+      EXPECT_EQ(by_separators->traits().n_operations, again->traits().n_operations);
     }
   } // namespace
 } // namespace Exemplar::Testing
