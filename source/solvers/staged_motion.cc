@@ -373,10 +373,11 @@ namespace Exemplar
           of_handle[3 * node + c] = way[3 * node + c];
       return potential.max_step_to(time, from, of_handle) < min_part;
     };
-    unsigned int handle = touching_handle(potential, handles, from);
-    for (unsigned int h = 0; h < handles.size() && handle == handles.size(); ++h)
-      if (stops(h))
-        handle = h;
+    unsigned int handle = 0; // the first that moves, or else the first that is there
+    while (handle < handles.size() && !stops(handle))
+      ++handle;
+    if (handle == handles.size())
+      handle = touching_handle(potential, handles, from);
     const std::string held = handle < handles.size() ? handle_words(handles, handle) : "the body";
     throw meeting(now, held, potential.limit_to(time, from, way));
   }
