@@ -9,6 +9,8 @@ namespace Exemplar
 {
   namespace
   {
+    constexpr double negligible = 1e-12; ///< beside 1: rounding
+
     /// The part of the way from a to b at which a line is nearest to a point, within [0, 1].
     double
     part_on(const SpaceVector3 &a, const SpaceVector3 &b, const SpaceVector3 &point)
@@ -152,16 +154,18 @@ namespace Exemplar
   bool
   passes_through(const std::array<SpaceVector3, 2> &edge, const std::array<SpaceVector3, 3> &x)
   {
-    const SpaceVector3 n     = dealii::cross_product_3d(x[1] - x[0], x[2] - x[0]);
+    const SpaceVector3 e = x[1] - x[0], f = x[2] - x[0], n = dealii::cross_product_3d(e, f);
     const double       begin = (edge[0] - x[0]) * n, end = (edge[1] - x[0]) * n;
-    if (!((begin < 0. && end > 0.) || (begin > 0. && end < 0.)))
+    const double       longest
+        = std::max({ e.norm(), f.norm(), (edge[0] - x[0]).norm(), (edge[1] - x[0]).norm() });
+    // on flat parts of a surface rounding alone would say on which side the ends are
+    const double rounding = negligible * e.norm() * f.norm() * longest;
+    if (!(std::min(begin, end) < -rounding && std::max(begin, end) > rounding))
       return false;
-    // the three volumes that the edge spans with the sides have one sign
-    std::array<double, 3> volumes{};
-    for (unsigned int k = 0; k < 3; ++k)
-      volumes[k] = dealii::cross_product_3d(x[k] - edge[0], x[(k + 1) % 3] - edge[0])
-                   * (edge[1] - edge[0]);
-    return std::all_of(volumes.begin(), volumes.end(), [](const double v) { return v >= 0.; })
-           || std::all_of(volumes.begin(), volumes.end(), [](const double v) { return v <= 0.; });
+    const double       area  = n.norm_square();
+    const SpaceVector3 place = edge[0] + begin / (begin - end) * (edge[1] - edge[0]) - x[0];
+    const double       s     = dealii::cross_product_3d(place, f) * n / area,
+                 t           = dealii::cross_product_3d(e, place) * n / area;
+    return std::min({ s, t, 1. - s - t }) >= -negligible;
   }
 } // namespace Exemplar

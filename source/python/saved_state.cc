@@ -40,6 +40,23 @@ namespace Exemplar::Python
       std::uint64_t value = 1;
     };
 
+    /// Add what handles hold, those with a From or Until whether they hold it now or not.
+    void
+    add_handles(const Problem &problem, Digest &digest)
+    {
+      const auto &of_scene = problem.parameters.handles;
+      std::size_t number   = 0; // those of the scene come first
+      for (const Handles::Holding &of : problem.constraints.handles.holding())
+      {
+        const bool is_timed
+            = number < of_scene.size() && !of_scene[number].holding_time().is_always();
+        digest.add(is_timed || of.holds ? 1. : 0.);
+        digest.add_all(of.nodes);
+        digest.add_all(of.components);
+        ++number;
+      }
+    }
+
     /// Digest of the settings, beside the state, that a solver's memory depends on.
     std::uint64_t
     settings_of(const Problem &problem)
@@ -54,7 +71,7 @@ namespace Exemplar::Python
       digest.add(problem.examples.poses.size() == 0 ? 0. : parameters.examples.importance);
       digest.add_all(parameters.loads.gravity);
       digest.add(static_cast<double>(problem.actions.own_terms.size()));
-      digest.add_all(problem.constraints.free_dofs.list());
+      add_handles(problem, digest);
       digest.add_all(problem.body.fe_space.rest_positions());
       for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)
         digest.add_all(problem.examples.poses.pose(i));

@@ -22,7 +22,57 @@ namespace Exemplar
     constexpr unsigned int max_halvings_of_part = 10;
     constexpr unsigned int max_stages           = 40;
     constexpr double       min_part      = 1e-6; ///< of the way: less in one stage is no progress
+    constexpr double       least_of_held = 1e-6; ///< widths
     constexpr double       greatest_turn = 5. * 3.14159265358979323846 / 180.;
+
+    /// Whether one of the gap's nodes is free in some direction.
+    bool
+    has_free(const Gap &gap, const FreeDofs &free_dofs)
+    {
+      bool is = false;
+      for (unsigned int i = 0; i < gap.n_nodes; ++i)
+        for (unsigned int c = 0; c < 3; ++c)
+          is |= free_dofs.free_index(3 * gap.nodes[i] + c) != FreeDofs::held;
+      return is;
+    }
+
+    /// The first handle whose nodes are as near to something as rounding tells, which stages have only come ever nearer to;
+    /// the number of handles if there is none. Collective.
+    unsigned int
+    touching_handle(const IncrementalPotential &potential,
+                    const Handles              &handles,
+                    const Vector               &positions)
+    {
+      const FreeDofs &free_dofs = potential.get_free_dofs();
+      double          first     = handles.size();
+      const auto      touches   = [&](const Gap &gap)
+      {
+        return gap.stiffness > 0. && gap.distance < least_of_held * gap.width
+               && !has_free(gap, free_dofs);
+      };
+      for (const Gap &gap : potential.gaps(positions, 1.)) // which the step asks for next
+        for (unsigned int h = 0; h < first && touches(gap); ++h)
+          if (std::find_first_of(gap.nodes.begin(), gap.nodes.begin() + gap.n_nodes,
+                                 handles.nodes(h).begin(), handles.nodes(h).end())
+              != gap.nodes.begin() + gap.n_nodes)
+            first = h;
+      return static_cast<unsigned int>(min_of_all(free_dofs.exchange(), first));
+    }
+
+    std::string
+    handle_words(const Handles &handles, const unsigned int handle)
+    {
+      return "handle '" + handles.name(handle) + "'";
+    }
+
+    SolverFailure
+    meeting(const double time, const std::string &held, const std::string &limit)
+    {
+      return SolverFailure(fmt::format(
+          "At t = {:.6g} s {} and {} meet, and nothing gives way. Move the one or the other "
+          "another way, or let go before.",
+          time, held, limit.empty() ? "what it may not pass" : limit));
+    }
   } // namespace
 
   bool
@@ -113,7 +163,12 @@ namespace Exemplar
       if (part >= 1.)
       {
         potential.move_to(time);
-        return stage;
+        const unsigned int touching = touching_handle(potential, handles, to);
+        if (touching == handles.size())
+          return stage;
+        potential.move_to(start_time);
+        to -= from;
+        throw meeting(time, handle_words(handles, touching), potential.limit_to(time, from, to));
       }
       if (!(part > min_part))
         break;
@@ -280,16 +335,8 @@ namespace Exemplar
                       Vector       &to,
                       const Follow &follow) const
   {
-    const FreeDofs &free_dofs = potential.get_free_dofs();
-    const Exchange &exchange  = free_dofs.exchange();
-    const auto      is_free   = [&](const Gap &gap)
-    {
-      bool is = false;
-      for (unsigned int i = 0; i < gap.n_nodes; ++i)
-        for (unsigned int c = 0; c < 3; ++c)
-          is |= free_dofs.free_index(3 * gap.nodes[i] + c) != FreeDofs::held;
-      return is;
-    };
+    const FreeDofs  &free_dofs = potential.get_free_dofs();
+    const Exchange  &exchange  = free_dofs.exchange();
     const Vector     predicted = to;
     std::vector<Gap> carried;
     for (unsigned int i = 0; i < max_carries; ++i)
@@ -299,7 +346,7 @@ namespace Exemplar
       Vector difference = to;
       difference -= predicted;
       for (const Gap &gap : potential.gaps_of_way(now, time, from, to, overtaken))
-        if (gap.stiffness > 0. && is_free(gap))
+        if (gap.stiffness > 0. && has_free(gap, free_dofs))
         {
           carried.push_back(gap);
           carried.back().distance -= GapEnergies({ gap }).changes(difference)[0];
@@ -318,23 +365,20 @@ namespace Exemplar
                        const Vector &from,
                        const Vector &way) const
   {
-    std::string held = "the body";
-    for (unsigned int h = 0; h < handles.size(); ++h)
+    const auto stops = [&](const unsigned int handle)
     {
       Vector of_handle(way.size());
-      for (const unsigned int node : handles.nodes(h))
+      for (const unsigned int node : handles.nodes(handle))
         for (unsigned int c = 0; c < 3; ++c)
           of_handle[3 * node + c] = way[3 * node + c];
-      if (potential.max_step_to(time, from, of_handle) < min_part)
-      {
-        held = "handle '" + handles.name(h) + "'";
-        break;
-      }
-    }
-    const std::string limit = potential.limit_to(time, from, way);
-    throw SolverFailure(fmt::format(
-        "At t = {:.6g} s {} and {} meet, and nothing gives way. Move the one or the other another "
-        "way, or let go before.",
-        now, held, limit.empty() ? "what it may not pass" : limit));
+      return potential.max_step_to(time, from, of_handle) < min_part;
+    };
+    unsigned int handle = 0; // the first that moves, or else the first that is there
+    while (handle < handles.size() && !stops(handle))
+      ++handle;
+    if (handle == handles.size())
+      handle = touching_handle(potential, handles, from);
+    const std::string held = handle < handles.size() ? handle_words(handles, handle) : "the body";
+    throw meeting(now, held, potential.limit_to(time, from, way));
   }
 } // namespace Exemplar

@@ -40,6 +40,8 @@ KINDS = {
     "weights that yield": scene(Examples={"Yield": 1e-3, "Creep viscosity": 1}),
     "keys that add up": scene(Examples={"Weights": "additive"}),
     "keys that yield": scene(Examples={"Weights": "additive", "Yield": 1e-3, "Creep viscosity": 1}),
+    "a handle that lets go": scene(Handles={"right": {**HANDLES["right"], "Until": 0.2}}),
+    "a handle that lets go there": scene(Handles={"right": {**HANDLES["right"], "Until": 0.1}}),
     "static": STATIC,
 }
 

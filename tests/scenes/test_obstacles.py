@@ -400,6 +400,7 @@ class Refused(BadInputTest):
         ({"Obstacles/floor/Motion": "0; 0; 100*t"}, "more than a quarter of the body's diameter"),
         ({"Obstacles/floor/Motion": "0; 0; -1e3*max(t - 150, 0)", "Time/End": "160"}, "m in the step to t = 150.01"),
         ({"Obstacles/floor/Turn": "0; 150*t; 0"}, "Obstacles/floor turns by 1.5 rad in the step to t = 0.01 s, more than 1"),
+        ({"Obstacles/floor/Turn": "0; 200*pi*t; 0"}, "Obstacles/floor turns by 2.4 rad in the step to t = 0.01 s, more than 1"),
         ({"Obstacles/Names": "floor, floor_torque", "Obstacles/floor_torque/Shape": "plane 0 0 -5 0 0 1"}, "Give one of them another name"),
         ({"Obstacles/floor/Until": "-1"}, "the obstacle would never be there"),
         ({"Model/Gradient": "frozen"}, "nothing keeps it out"),

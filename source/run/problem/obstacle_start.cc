@@ -209,11 +209,13 @@ namespace Exemplar
     {
       constexpr double   greatest    = 0.25; // of the diameter
       constexpr double   most_turned = 1.;   // [rad]
-      const ObstaclePose from = obstacle.pose(begin), to = obstacle.pose(end);
-      double             way     = (to.place - from.place).norm();
-      const bool         deforms = obstacle.deforms();
-      const auto         before  = deforms ? obstacle.vertices(begin) : std::vector<SpaceVector3>();
-      const auto         after   = deforms ? obstacle.vertices(end) : before;
+      constexpr double   golden = 0.618; // of the step: what is back at its end is elsewhere then
+      const ObstaclePose from = obstacle.pose(begin), to = obstacle.pose(end),
+                         between = obstacle.pose(begin + golden * (end - begin));
+      double way = std::max((between.place - from.place).norm(), (to.place - from.place).norm());
+      const bool deforms = obstacle.deforms();
+      const auto before  = deforms ? obstacle.vertices(begin) : std::vector<SpaceVector3>();
+      const auto after   = deforms ? obstacle.vertices(end) : before;
       for (std::size_t v = 0; v < before.size(); ++v)
         way = std::max(way, (after[v] - before[v]).norm());
       if (way > greatest * diameter)
@@ -222,7 +224,9 @@ namespace Exemplar
             "diameter of {} m. Take smaller steps (Time/Step or Time/Increments), or a slower {}.",
             obstacle.name(), short_text(way), shortest_text(end), short_text(diameter),
             deforms ? "cache" : "Motion"));
-      if (const double turn = turn_of_form(obstacle.shape(), from, to); turn > most_turned)
+      const double turn = std::max(turn_of_form(obstacle.shape(), from, between),
+                                   turn_of_form(obstacle.shape(), from, to));
+      if (turn > most_turned)
         throw UserError(fmt::format(
             "Obstacles/{} turns by {} rad in the step to t = {} s, more than 1. Take smaller "
             "steps (Time/Step or Time/Increments), or a slower Turn or track.",

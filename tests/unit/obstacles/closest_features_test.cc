@@ -195,6 +195,21 @@ namespace Exemplar::Testing
     EXPECT_TRUE(passes_through({ { vector(.2, .2, 1.), vector(.3, .3, -1.) } }, x));
     EXPECT_FALSE(passes_through({ { vector(.2, .2, .1), vector(.3, .3, 1.) } }, x));
     EXPECT_FALSE(passes_through({ { vector(.8, .8, -1.), vector(.8, .8, 1.) } }, x));
+    EXPECT_TRUE(passes_through({ { vector(.5, .5, -1.), vector(.5, .5, 1.) } }, x)) << "a rim";
+  }
+
+  TEST(ClosestFeatures, NoEdgePassesThroughATriangleOfItsPlaneHoweverThatIsTurned)
+  {
+    Places place;
+    for (unsigned int round = 0; round < 2000; ++round)
+    {
+      const SpaceVector3 o = place(), e = place(), f = place();
+      const auto         at = [&](const double s, const double t) { return o + s * e + t * f; };
+      const std::array<SpaceVector3, 3> x{ { at(0., 0.), at(1., 0.), at(0., 1.) } };
+      EXPECT_FALSE(passes_through({ { at(1.1, 0.), at(0., 1.1) } }, x));
+      EXPECT_FALSE(passes_through({ { at(2., 0.1), at(2., 1.1) } }, x));
+      EXPECT_FALSE(passes_through({ { at(-0.1, 0.3), at(0.9, 0.3) } }, x));
+    }
   }
 
   TEST(BoxTree, FindsWhatASearchFinds)

@@ -99,8 +99,9 @@ namespace Exemplar::Testing
     TEST(StagedMotionTest, WhatDoesNotGiveWayIsToldInWords)
     {
       LoweredPlate lowered("box -1 -1 0.49 5 1 0.51", 10. * width),
-          lifted("box -1 -1 0.49 5 1 0.51", 0., "0; 0; 0.1*t");
-      for (LoweredPlate *plate : { &lowered, &lifted })
+          lifted("box -1 -1 0.49 5 1 0.51", 0., "0; 0; 0.1*t"),
+          meeting("box -1 -1 0.49 5 1 0.51", 1.2 * width); // which ends with no gap but rounding
+      for (LoweredPlate *plate : { &lowered, &lifted, &meeting })
         try
         {
           plate->go();
