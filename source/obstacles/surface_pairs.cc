@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/obstacles/surface_pairs.h>
 
+#include <array>
+#include <utility>
+
 namespace Exemplar
 {
   namespace

@@ -35,11 +35,10 @@ namespace Exemplar
     std::vector<unsigned int>                points;
     std::vector<std::array<unsigned int, 2>> edges;
     std::vector<std::array<unsigned int, 3>> triangles; ///< of a surface
-    std::vector<unsigned int>
-        flat_parts; ///< of the triangles: the first triangle of the part in one plane that each is in
-    double radius    = 0.;    ///< around points and edges [m]
-    bool   is_closed = true;  ///< whether it has an inside
-    bool   bounds    = false; ///< whether the body is inside of it, as in a box
+    std::vector<unsigned int> flat_parts;        ///< by triangle: the first one of its flat part
+    double                    radius    = 0.;    ///< around points and edges [m]
+    bool                      is_closed = true;  ///< whether it has an inside
+    bool                      bounds    = false; ///< whether the body is inside of it, as in a box
 
     /// Whether nodes may meet the edges: those of a capsule.
     bool

@@ -14,7 +14,8 @@ namespace Exemplar
   class SurfacePairs
   {
   public:
-    /// The surface must outlive it, and each of its edges and nodes be of a triangle. `places` are those of the nodes, by which triangles are brought into an order: a matter of speed.
+    /// The surface must outlive it, and each of its edges and nodes be of a triangle. `places` are those of the nodes, by which
+    /// triangles are brought into an order: a matter of speed.
     SurfacePairs(const ContactSurface                    &surface,
                  const std::vector<unsigned int>         &pieces,
                  const std::vector<dealii::Tensor<1, 3>> &places);
