@@ -156,11 +156,12 @@ namespace Exemplar
     }
   } // namespace
 
-  MultigridOperator::MultigridOperator(const FreeDofs &free_dofs,
-                                       const double    tolerance,
-                                       MakeHierarchy   make_hierarchy)
-      : free_dofs(free_dofs), tolerance(tolerance), make_hierarchy(std::move(make_hierarchy)),
-        rows(free_dofs)
+  MultigridOperator::MultigridOperator(const FreeDofs           &free_dofs,
+                                       const double              tolerance,
+                                       std::vector<unsigned int> pieces,
+                                       MakeHierarchy             make_hierarchy)
+      : free_dofs(free_dofs), tolerance(tolerance), pieces(std::move(pieces)),
+        make_hierarchy(std::move(make_hierarchy)), rows(free_dofs)
   {
     MpiSession::require();
   }
@@ -211,7 +212,21 @@ namespace Exemplar
     places                     = places_of_nodes(positions);
     product_rows = OuterProductRows<double>(of_rows, numbers.first_nodes(), free_dofs.exchange());
     rows.fill(lower_values, diagonal_of(product_rows, numbers.n_rows()));
+    find_rigid_correction();
     return of_rows;
+  }
+
+  void
+  MultigridOperator::find_rigid_correction()
+  {
+    if (!free_dofs.exchange().any(!pieces.empty()))
+      return;
+    std::vector<unsigned int> of_rows;
+    for (const unsigned int node : rows.get_numbers().nodes())
+      of_rows.push_back(pieces[node]);
+    rigid = RigidCorrection(
+        places, of_rows, rows.get_numbers().row_of(),
+        [this](const Vector &x, Vector &y) { multiply(x, y); }, free_dofs.exchange());
   }
 
   void
@@ -294,6 +309,8 @@ namespace Exemplar
     const BlockVector &result = cycle->apply(residual, CycleShape::W);
     for (unsigned int row = 0; row < n; ++row)
       image[row] = scale * result[4 * (row / 3) + row % 3];
+    if (!rigid.empty())
+      rigid.add(vector, image);
   }
 
   unsigned int
@@ -335,7 +352,7 @@ namespace Exemplar
     {
       const unsigned int allowed = n_iterations + hierarchy_in_iterations;
       if (iterate(right_side, accuracy * norm, allowed, solution) <= allowed)
-        return;
+        return correct_rigid_motions(right_side, solution);
       make_cycle(by_rows(products, free_dofs, rows.get_numbers()));
     }
     const unsigned int needed = iterate(right_side, accuracy * norm, max_iterations, solution);
@@ -346,5 +363,19 @@ namespace Exemplar
                                       max_iterations));
     if (n_iterations == 0)
       n_iterations = needed;
+    correct_rigid_motions(right_side, solution);
+  }
+
+  void
+  MultigridOperator::correct_rigid_motions(const SharedVector &right_side,
+                                           SharedVector       &solution) const
+  {
+    // what the residual leaves of a weak constraint's small force is a large motion
+    if (rigid.empty())
+      return;
+    SharedVector residual(right_side);
+    multiply(solution, residual);
+    residual.sadd(-1., 1., right_side);
+    rigid.add(residual, solution);
   }
 } // namespace Exemplar

@@ -132,8 +132,10 @@ namespace Exemplar
   }
 
   std::unique_ptr<SpdOperator>
-  make_iterative_operator(const FreeDofs &free_dofs, const double tolerance)
+  make_iterative_operator(const FreeDofs           &free_dofs,
+                          const double              tolerance,
+                          std::vector<unsigned int> pieces)
   {
-    return std::make_unique<MultigridOperator>(free_dofs, tolerance, make_by_ml);
+    return std::make_unique<MultigridOperator>(free_dofs, tolerance, std::move(pieces), make_by_ml);
   }
 } // namespace Exemplar

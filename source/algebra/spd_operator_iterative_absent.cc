@@ -13,7 +13,9 @@ namespace Exemplar
   }
 
   std::unique_ptr<SpdOperator>
-  make_iterative_operator(const FreeDofs & /*free_dofs*/, const double /*tolerance*/)
+  make_iterative_operator(const FreeDofs & /*free_dofs*/,
+                          const double /*tolerance*/,
+                          std::vector<unsigned int> /*pieces*/)
   {
     throw UserError(
         "Solver/Linear solver = iterative, which several processes need, too: this "

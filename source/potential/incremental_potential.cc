@@ -137,6 +137,22 @@ namespace Exemplar
                        [&](const auto &term) { return term->dissipation(at).has_value(); });
   }
 
+  std::vector<unsigned int>
+  IncrementalPotential::weakly_constrained_pieces() const
+  {
+    for (const auto &term : terms)
+      if (auto pieces = term->weakly_constrained_pieces(); !pieces.empty())
+        return pieces;
+    return {};
+  }
+
+  bool
+  IncrementalPotential::has_tangent_of_step() const
+  {
+    return std::any_of(terms.begin(), terms.end(),
+                       [](const auto &term) { return term->has_tangent_of_step(); });
+  }
+
   void
   IncrementalPotential::leave_step(const State &at)
   {

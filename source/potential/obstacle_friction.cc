@@ -73,11 +73,10 @@ namespace Exemplar
     const auto [own_greatest, own_change] = force_and_change_of(fresh, step.rubbing);
     const double greatest                 = free_dofs->exchange().max(own_greatest);
     const double change                   = free_dofs->exchange().max(own_change);
-    // where a step begins nothing may push yet
-    const bool lets_go = springs && (greatest > 0. || !step.is_beginning) && springs->let_go();
-    step.is_beginning  = false;
+    ++step.n_looks;
+    step.greatest_force = greatest;
     if (change <= obstacles.lag_tolerance * greatest)
-      return lets_go ? TermChange::values : TermChange::none;
+      return TermChange::none;
     ++step.n_renewals;
     step.rubbing = std::move(fresh);
     return TermChange::values;

@@ -17,14 +17,11 @@ namespace Exemplar
   ObstacleTerm::ObstacleTerm(const Obstacles      &obstacles,
                              const ContactSurface &surface,
                              const Material       &material,
-                             const Vector         &rest_positions,
                              const TimeIntegrator *integrator)
       : TouchingTerm(surface, material, integrator), obstacles(obstacles)
   {
     reached.least_gap = obstacles.width;
     follow_parameters();
-    if (integrator == nullptr && obstacles.free != FreeBodies::refused)
-      springs.emplace(obstacles.free, obstacles.diameter, this->surface, rest_positions);
   }
 
   void
@@ -45,8 +42,6 @@ namespace Exemplar
   ObstacleTerm::attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs)
   {
     TouchingTerm::attach(new_pattern, new_free_dofs);
-    if (springs)
-      springs->attach(new_pattern, new_free_dofs);
     if (!node_areas.empty())
       return;
     node_areas.assign(free_dofs->n_dofs() / 3, 0.);
@@ -181,12 +176,19 @@ namespace Exemplar
     follow_times(at);
     found.positions.reinit(0);
     step.rubbing.clear();
-    step.n_renewals   = 0;
-    step.is_beginning = true;
-    if (springs)
-      springs->begin_step(at.positions);
+    step.n_renewals     = 0;
+    step.n_looks        = 0;
+    step.greatest_force = 0.;
     if (have_friction)
       remember_slip_base(at);
+  }
+
+  bool
+  ObstacleTerm::has_tangent_of_step() const
+  {
+    return have_friction
+           || !std::all_of(obstacles.all.begin(), obstacles.all.end(),
+                           [](const Obstacle &obstacle) { return obstacle.is_always_there(); });
   }
 
   void
@@ -219,8 +221,6 @@ namespace Exemplar
     for (Sums &sums : sums_of)
       sums.force = sums.torque = SpaceVector3();
     reached = reached_at(end.positions, obstacles.width);
-    if (springs)
-      force_of_springs = springs->force(end.positions);
     for (const Rubbing &at : step.rubbing)
       sums_of[at.obstacle].heat += heat_of(at, end.positions);
     visit_gradients(
@@ -244,43 +244,9 @@ namespace Exemplar
   ObstacleTerm::leave_step()
   {
     step.has_begun = false;
-    if (springs)
-      springs->leave_step();
     step.rubbing.clear();
     step.there.clear();
     found.positions.reinit(0);
-  }
-
-  // The potential
-
-  void
-  ObstacleTerm::add(const TermPoint &at, ElasticSums &sums)
-  {
-    TouchingTerm::add(at, sums);
-    if (springs)
-      springs->add(at.positions, sums);
-  }
-
-  void
-  ObstacleTerm::add_tangent(const TermPoint     &at,
-                            const Tangent        kind,
-                            std::vector<double> &values,
-                            std::vector<double> &columns)
-  {
-    TouchingTerm::add_tangent(at, kind, values, columns);
-    if (springs)
-      springs->add_tangent(values);
-  }
-
-  void
-  ObstacleTerm::add_response(const TermPoint &at,
-                             const Tangent    kind,
-                             const Vector    &displacement,
-                             ElasticSums     &sums)
-  {
-    TouchingTerm::add_response(at, kind, displacement, sums);
-    if (springs)
-      springs->add_response(displacement, sums);
   }
 
   // What is shown and remembered
@@ -334,10 +300,6 @@ namespace Exemplar
     }
     if (have_friction)
       columns.emplace_back("heat_friction", heat);
-    for (unsigned int c = 0; c < 3 && springs && springs->get_kind() == FreeBodies::weak_springs;
-         ++c)
-      columns.emplace_back(std::string("weak_springs_") + "xyz"[c],
-                           exchange.sum(force_of_springs[c]));
   }
 
   void
@@ -358,14 +320,14 @@ namespace Exemplar
   ObstacleTerm::save(boost::archive::binary_oarchive &archive) const
   {
     archive << has_appeared << sums_of << reached.barrier_energy << reached.least_gap
-            << reached.n_pairs << force_of_springs;
+            << reached.n_pairs;
   }
 
   void
   ObstacleTerm::load(boost::archive::binary_iarchive &archive)
   {
     archive >> has_appeared >> sums_of >> reached.barrier_energy >> reached.least_gap
-        >> reached.n_pairs >> force_of_springs;
+        >> reached.n_pairs;
     sums_of.resize(standing.size()); // some obstacles may have been added since
     has_appeared.resize(standing.size(), 0);
   }

@@ -2,6 +2,7 @@
 #include <exemplar/potential/nodal_vectors.h>
 #include <exemplar/potential/weak_springs.h>
 
+#include <algorithm>
 #include <array>
 
 namespace Exemplar
@@ -16,18 +17,23 @@ namespace Exemplar
   WeakSprings::WeakSprings(const FreeBodies      kind,
                            const double          size,
                            const ContactSurface &surface,
-                           const Vector         &rest)
-      : kind(kind), size(size), surface(surface), anchors(rest)
+                           const Material       &material,
+                           const FESpace        &fe_space,
+                           const ObstacleTerm   &obstacles)
+      : kind(kind), size(size), surface(surface), material(material), obstacles(obstacles),
+        pieces(fe_space.numbering().pieces()), anchors(fe_space.rest_positions())
   {
+    follow_parameters();
   }
 
   void
-  WeakSprings::begin_step(const Vector &positions)
+  WeakSprings::begin_step(const State &start, const double /*step_size*/)
   {
     in_step    = true;
     has_let_go = false;
+    n_looks = n_renewals = 0;
     if (kind == FreeBodies::friction)
-      anchors = positions;
+      anchors = start.positions;
     std::array<double, 2> sums{};
     for (const ContactSurface::Node &node : surface.nodes)
     {
@@ -38,12 +44,29 @@ namespace Exemplar
     by_area = size * sums[0] / (sums[1] * sums[1]);
   }
 
-  bool
-  WeakSprings::let_go()
+  TermChange
+  WeakSprings::renew(const TermPoint &at)
   {
-    const bool is_new = kind == FreeBodies::friction && in_step && !has_let_go;
-    has_let_go |= is_new;
-    return is_new;
+    const ObstacleTerm::Step &friction = obstacles.get_step();
+    if (kind != FreeBodies::friction || !in_step || friction.n_looks == n_looks)
+      return TermChange::none;
+    n_looks           = friction.n_looks;
+    TermChange change = TermChange::none;
+    // where a step begins nothing may push yet
+    if (!has_let_go && (friction.greatest_force > 0. || n_looks > 1))
+    {
+      has_let_go = true;
+      change     = TermChange::values;
+    }
+    // what an obstacle carries along goes far from its anchors, and stiff springs would bear its weight
+    const double allowed = obstacles.lag_tolerance() * friction.greatest_force;
+    if (allowed > 0. && has_settled() && greatest_force(at.positions) > allowed)
+    {
+      ++n_renewals;
+      anchors = at.positions;
+      change  = TermChange::values;
+    }
+    return change;
   }
 
   double
@@ -53,15 +76,34 @@ namespace Exemplar
     return (holds ? until_friction_holds : weak) * by_area * node.area;
   }
 
+  double
+  WeakSprings::greatest_force(const Vector &positions) const
+  {
+    double greatest = 0.;
+    for (const ContactSurface::Node &node : surface.nodes)
+      greatest = std::max(
+          greatest,
+          stiffness(node) * (at_node(positions, node.node) - at_node(anchors, node.node)).norm());
+    return free_dofs->exchange().max(greatest);
+  }
+
   void
-  WeakSprings::add(const Vector &positions, ElasticSums &sums) const
+  WeakSprings::end_step(const State &end)
+  {
+    force = SpaceVector3();
+    for (const ContactSurface::Node &node : surface.nodes)
+      force -= stiffness(node) * (at_node(end.positions, node.node) - at_node(anchors, node.node));
+  }
+
+  void
+  WeakSprings::add(const TermPoint &at, ElasticSums &sums)
   {
     if (!in_step)
       return;
     for (const ContactSurface::Node &node : surface.nodes)
     {
-      const double               k = stiffness(node);
-      const dealii::Tensor<1, 3> u = at_node(positions, node.node) - at_node(anchors, node.node);
+      const double       k = stiffness(node);
+      const SpaceVector3 u = at_node(at.positions, node.node) - at_node(anchors, node.node);
       sums->energy += 0.5 * k * u.norm_square();
       add_to(sums->gradient, node.node, k * u);
       sums->force_scale[node.node] += k * u.norm();
@@ -69,7 +111,10 @@ namespace Exemplar
   }
 
   void
-  WeakSprings::add_tangent(std::vector<double> &values) const
+  WeakSprings::add_tangent(const TermPoint & /*at*/,
+                           const Tangent /*kind*/,
+                           std::vector<double> &values,
+                           std::vector<double> & /*columns*/)
   {
     if (!in_step)
       return;
@@ -80,7 +125,10 @@ namespace Exemplar
   }
 
   void
-  WeakSprings::add_response(const Vector &displacement, ElasticSums &sums) const
+  WeakSprings::add_response(const TermPoint & /*at*/,
+                            const Tangent /*kind*/,
+                            const Vector &displacement,
+                            ElasticSums  &sums)
   {
     if (!in_step)
       return;
@@ -88,12 +136,24 @@ namespace Exemplar
       add_to(sums->gradient, node.node, stiffness(node) * at_node(displacement, node.node));
   }
 
-  dealii::Tensor<1, 3>
-  WeakSprings::force(const Vector &positions) const
+  void
+  WeakSprings::append_columns(const double /*energy*/,
+                              std::vector<std::pair<std::string, double>> &columns) const
   {
-    dealii::Tensor<1, 3> sum;
-    for (const ContactSurface::Node &node : surface.nodes)
-      sum -= stiffness(node) * (at_node(positions, node.node) - at_node(anchors, node.node));
-    return sum;
+    for (unsigned int c = 0; c < 3 && kind == FreeBodies::weak_springs; ++c)
+      columns.emplace_back(std::string("weak_springs_") + "xyz"[c],
+                           free_dofs -> exchange().sum(force[c]));
+  }
+
+  void
+  WeakSprings::save(boost::archive::binary_oarchive &archive) const
+  {
+    archive << force;
+  }
+
+  void
+  WeakSprings::load(boost::archive::binary_iarchive &archive)
+  {
+    archive >> force;
   }
 } // namespace Exemplar

@@ -7,7 +7,8 @@ from math import sqrt
 import numpy as np
 from bad_inputs import BadInputTest
 from contact_reference import Reference
-from exemplar_runner import SceneTest, nodes_of, prm, read_csv, read_msh, read_summary, read_vtu, results
+from exemplar_runner import SceneTest, needs_trilinos, nodes_of, prm, read_csv, read_msh, read_summary, read_vtu, results
+from piece_boxes import Box, write_boxes
 
 G = 9.81
 BAR = {
@@ -253,6 +254,9 @@ class Frictional(ObstacleTest):
 class Statics(ObstacleTest):
     CUBE = {**CUBE, "Scene": "static", "Time/Step": None, "Time/End": None, "Time/Increments": "2", "Solver/Tolerance": "1e-10"}
     WEIGHT = 1000 * 0.001 * G
+    PRESSED = {**CUBE, "Material/Young's modulus": "1e5", "Material/Poisson's ratio": "0", "Loads/Gravity": None,
+               "Obstacles/Names": "below, above", "Obstacles/floor/Shape": None, "Obstacles/below/Shape": "plane 0 0 -0.05  0 0 1",
+               "Obstacles/above/Shape": "plane 0 0 0.05  0 0 -1", "Obstacles/above/Motion": "0; 0; -0.04*t", "Time/Increments": "5"}
 
     def test_weak_springs_hold_what_a_floor_does_not(self):
         last = read_csv(self.solve({**self.CUBE, "Obstacles/Free": "weak springs"}))[-1]
@@ -261,14 +265,59 @@ class Statics(ObstacleTest):
         # 1e-6 E L times how far it has sunk, at most the width
         self.assertLess(abs(springs), 1e-6 * 1e7 * 0.1 * sqrt(3) * 5e-3 * 0.1 * sqrt(3))
 
-    def test_springs_beside_friction_bear_what_it_creeps(self):
-        diameter, tangent = 0.1 * sqrt(3), 0.25
+    def test_friction_alone_bears_what_it_can(self):
+        tangent = 0.25
         cosine = 1 / sqrt(1 + tangent**2)
         down = G * tangent * cosine
-        last = read_csv(self.solve({**self.CUBE, "Obstacles/Free": "friction", "Obstacles/floor/Friction": 2 * tangent, "Time/Increments": "1",
-                                    "Obstacles/Lag tolerance": "1e-8", "Loads/Gravity": f"{down}, 0, {-G * cosine}"}))[-1]
-        borne = down + last["contact_floor_x"]  # of 1 kg
-        self.assertAlmostEqual(borne / (1e-6 * 1e7 * diameter * 1e-3 * diameter * (1 - sqrt(0.5))), 1, delta=0.1)
+        for young in ("1e7", "1e10"):  # springs that stayed would bear 4e-5 and 4e-2 of the load along the slope
+            last = read_csv(self.solve({**self.CUBE, "Obstacles/Free": "friction", "Obstacles/floor/Friction": 2 * tangent,
+                                        "Time/Increments": "1", "Obstacles/Lag tolerance": "1e-6", "Material/Young's modulus": young,
+                                        "Loads/Gravity": f"{down}, 0, {-G * cosine}"}, output=young))[-1]
+            self.assertAlmostEqual(-last["contact_floor_x"] / down, 1, delta=1e-5)  # of 1 kg
+
+    def test_two_plates_press_a_body_that_nothing_else_holds(self):
+        # without Poisson's effect and friction the strain is the same everywhere
+        for element in ("P1", "P2"):
+            for free, friction in (("weak springs", "0"), ("friction", "0.5")):
+                with self.subTest(free, element=element):
+                    output = self.solve({**self.PRESSED, "Model/Element": element, "Obstacles/Free": free, "Obstacles/above/Friction": friction,
+                                         "Obstacles/below/Friction": friction}, output=f"{element} {free}")
+                    rows, places = read_csv(output), np.array(list(nodes_of(output / "final.msh").values()))
+                    height = places[:, 2].max() - places[:, 2].min()
+                    self.assertLess(height, 0.0625)
+                    force = 1e5 * 0.01 * (1 - height / 0.1)
+                    self.assertAlmostEqual(rows[-1]["contact_above_z"] / -force, 1, delta=1e-3)
+                    self.assertAlmostEqual(rows[-1]["contact_below_z"] / force, 1, delta=1e-3)
+
+    def test_friction_carries_a_stiff_body_with_the_floor(self):
+        # by half of its size; springs to where it was would bear its weight
+        moved = {**self.CUBE, "Obstacles/Free": "friction", "Obstacles/floor/Friction": "0.5", "Material/Young's modulus": "1e9",
+                 "Time/Increments": "5", "Obstacles/floor/Motion": "0.05*t; 0.01*t; 0"}
+        output = self.solve(moved)
+        rest = nodes_of(self.solve({**moved, "Obstacles/floor/Motion": "0; 0; 0"}, output="rest") / "final.msh")
+        ways = np.array([np.subtract(end, rest[node]) for node, end in nodes_of(output / "final.msh").items()])
+        self.assertLess(np.abs(ways - [0.05, 0.01, 0]).max(), 1e-5)
+        self.assertLess(abs(read_csv(output)[-1]["contact_floor_x"]), 1e-3 * self.WEIGHT)
+
+    def test_a_body_that_lies_on_another_is_pressed(self):
+        write_boxes(self.directory / "two.msh", Box((0, 0, 0), (.1, .1, .06), (2, 2, 1)), Box((.02, .03, .061), (.07, .08, .1), (1, 1, 1)))
+        for free in ("friction", "weak springs"):
+            with self.subTest(free):
+                rows = read_csv(self.solve({**self.PRESSED, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None,
+                                            "Mesh/File": "two.msh", "Contact/Bodies": "true", "Contact/Friction": "0.5",
+                                            "Obstacles/below/Shape": "plane 0 0 0  0 0 1", "Obstacles/above/Shape": "plane 0 0 0.1  0 0 -1",
+                                            "Obstacles/above/Motion": "0; 0; -0.01*t", "Obstacles/below/Friction": "0.5",
+                                            "Obstacles/above/Friction": "0.5", "Obstacles/Free": free}, output=free))
+                self.assertLess(rows[-1]["contact_above_z"], -1)
+                self.assertAlmostEqual(rows[-1]["contact_below_z"] / -rows[-1]["contact_above_z"], 1, delta=1e-3)
+
+    @needs_trilinos
+    def test_conjugate_gradients_find_what_springs_hold(self):
+        scene = {**self.PRESSED, "Obstacles/Free": "weak springs", "Mesh/Box cells": "6, 6, 6", "Time/Increments": "2",
+                 "Obstacles/above/Motion": "0; 0; -0.01*t", "Loads/Gravity": f"1, 0, {-G}"}
+        ends = [nodes_of(self.solve({**scene, "Solver/Linear solver": solver}, output=solver) / "final.msh")
+                for solver in ("cholesky", "iterative")]
+        self.assertLess(max(np.abs(np.subtract(place, ends[1][node])).max() for node, place in ends[0].items()), 1e-6)
 
     def test_a_body_that_an_obstacle_presses_is_loaded(self):
         pressed = {**self.CUBE, "Loads/Gravity": None, "Handles/Names": "soles", "Handles/soles/Select": "boundary 5",

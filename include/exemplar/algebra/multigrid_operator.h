@@ -3,6 +3,7 @@
 #define exemplar_multigrid_operator_h
 
 #include <exemplar/algebra/multigrid_cycle.h>
+#include <exemplar/algebra/rigid_correction.h>
 #include <exemplar/algebra/spd_operator.h>
 
 #include <memory>
@@ -18,8 +19,12 @@ namespace Exemplar
   class MultigridOperator : public SpdOperator
   {
   public:
-    /// `free_dofs` must outlive this. Starts MPI if it is not running.
-    MultigridOperator(const FreeDofs &free_dofs, double tolerance, MakeHierarchy make_hierarchy);
+    /// `free_dofs` must outlive this. `pieces` are those of the nodes, whose rigid motions hardly anything constrains;
+    /// empty: there are none. Starts MPI if it is not running.
+    MultigridOperator(const FreeDofs           &free_dofs,
+                      double                    tolerance,
+                      std::vector<unsigned int> pieces,
+                      MakeHierarchy             make_hierarchy);
 
     void
     reinit(const SymmetricPattern &pattern) override;
@@ -73,6 +78,10 @@ namespace Exemplar
     OuterProducts
     take_matrix(const Vector &positions);
 
+    /// Find the inverse on the rigid motions of pieces.
+    void
+    find_rigid_correction();
+
     /// Make the hierarchy of the present matrix, whose outer products by block rows are these.
     void
     make_cycle(const OuterProducts &of_rows);
@@ -89,6 +98,10 @@ namespace Exemplar
     void
     solve(double accuracy, const SharedVector &right_side, SharedVector &solution);
 
+    /// Solve once more for the rigid motions of pieces.
+    void
+    correct_rigid_motions(const SharedVector &right_side, SharedVector &solution) const;
+
     /// Go on from `solution` to a residual of this norm for at most `limit` iterations; returns their number,
     /// `limit` + 1 if these do not suffice.
     unsigned int
@@ -97,14 +110,17 @@ namespace Exemplar
             unsigned int        limit,
             SharedVector       &solution) const;
 
-    const FreeDofs          &free_dofs;
-    const double             tolerance;
+    const FreeDofs &free_dofs;
+    const double    tolerance;
+    const std::vector<unsigned int>
+                             pieces; ///< by node of this process; empty without weak constraints
     const MakeHierarchy      make_hierarchy;
     std::vector<double>      lower_values;
     OuterProducts            products; ///< outer products by node
     DistributedRows          rows;
     OuterProductRows<double> product_rows;
     std::vector<double> places; ///< of the nodes with owned rows, where the matrix is the tangent
+    RigidCorrection     rigid;  ///< of the matrix; empty if `pieces` is
     std::shared_ptr<MultigridCycle> cycle; ///< of the last factorize(), or of a matrix near it
     bool         is_of_earlier = false;    ///< whether the cycle is that of an earlier matrix
     unsigned int n_iterations

@@ -193,10 +193,13 @@ namespace Exemplar
   /// Conjugate gradients to a residual of `tolerance` times the right side, preconditioned with
   /// multigrid on the levels of ML's smoothed aggregation, whose coarse spaces hold the six rigid
   /// motions of the nodes. Results of factorize() and solve() depend on the matrix, the positions of the nodes and the
-  /// right side alone. The pattern given to reinit() must outlive the operator. Throws UserError in a
-  /// build without Trilinos, and where MPI neither runs nor may be started (MpiSession).
+  /// right side alone. The pattern given to reinit() must outlive the operator. If springs far below single precision alone
+  /// constrain rigid motions, `pieces` has the piece of each node of this process: RigidCorrection treats these motions.
+  /// Throws UserError in a build without Trilinos, and where MPI neither runs nor may be started (MpiSession).
   std::unique_ptr<SpdOperator>
-  make_iterative_operator(const FreeDofs &free_dofs, double tolerance);
+  make_iterative_operator(const FreeDofs           &free_dofs,
+                          double                    tolerance,
+                          std::vector<unsigned int> pieces = {});
 
   /// Whether this build has Trilinos, which make_iterative_operator() needs.
   bool

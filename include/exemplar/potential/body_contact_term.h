@@ -31,6 +31,12 @@ namespace Exemplar
     void
     follow_parameters() override;
 
+    bool
+    has_tangent_of_step() const override
+    {
+      return contacts.friction != 0.;
+    }
+
     void
     begin_step(const State &start, double step_size) override;
 

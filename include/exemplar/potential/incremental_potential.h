@@ -127,6 +127,14 @@ namespace Exemplar
       return in_dynamic_step ? &integrator->predicted_positions() : nullptr;
     }
 
+    /// PotentialTerm::weakly_constrained_pieces() of the term that has some.
+    std::vector<unsigned int>
+    weakly_constrained_pieces() const;
+
+    /// Whether the tangent of a term depends on the step that has begun, PotentialTerm::has_tangent_of_step().
+    bool
+    has_tangent_of_step() const;
+
     /// Whether the forces at the same positions and weights differ from step to step: with prescribed
     /// weights, with stiffness damping, with creep of the weights, and where laws remember.
     bool

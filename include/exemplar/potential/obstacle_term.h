@@ -4,7 +4,6 @@
 
 #include <exemplar/potential/contact_slopes.h>
 #include <exemplar/potential/touching_term.h>
-#include <exemplar/potential/weak_springs.h>
 
 #include <string>
 #include <vector>
@@ -28,7 +27,6 @@ namespace Exemplar
     ObstacleTerm(const Obstacles      &obstacles,
                  const ContactSurface &surface,
                  const Material       &material,
-                 const Vector         &rest_positions,
                  const TimeIntegrator *integrator);
 
     std::string
@@ -45,6 +43,9 @@ namespace Exemplar
 
     void
     begin_step(const State &start, double step_size) override;
+
+    bool
+    has_tangent_of_step() const override;
 
     TermChange
     renew(const TermPoint &at) override;
@@ -96,21 +97,6 @@ namespace Exemplar
                        double            range,
                        std::vector<Gap> &gaps) override;
 
-    void
-    add(const TermPoint &at, ElasticSums &sums) override;
-
-    void
-    add_tangent(const TermPoint     &at,
-                Tangent              kind,
-                std::vector<double> &values,
-                std::vector<double> &columns) override;
-
-    void
-    add_response(const TermPoint &at,
-                 Tangent          kind,
-                 const Vector    &displacement,
-                 ElasticSums     &sums) override;
-
     double
     max_step(const Vector &positions, const Vector &displacement) const override;
 
@@ -156,16 +142,23 @@ namespace Exemplar
     /// What of the term belongs to the step that has begun.
     struct Step : RubbingStep
     {
-      Vector               start;                ///< positions where it begins
-      std::vector<char>    there;                ///< whether each obstacle is there; empty: all are
-      std::vector<Earlier> earlier;              ///< empty without friction
-      bool                 is_beginning = false; ///< no renewal yet
+      Vector               start;        ///< positions where it begins
+      std::vector<char>    there;        ///< whether each obstacle is there; empty: all are
+      std::vector<Earlier> earlier;      ///< empty without friction
+      unsigned int         n_looks = 0;  ///< how often renew() has been called
+      double greatest_force        = 0.; ///< of the contacts with friction at the last look [N]
     };
 
     const Step &
     get_step() const
     {
       return step;
+    }
+
+    double
+    lag_tolerance() const
+    {
+      return obstacles.lag_tolerance;
     }
 
     /// Return to a step that was left for others.
@@ -280,15 +273,13 @@ namespace Exemplar
     bool                          have_friction = false;
     std::vector<StandingObstacle> standing;
     Step                          step;
-    std::optional<WeakSprings>    springs;
     double                        time = 0.;
-    std::vector<Sums>             sums_of;  ///< of this process
-    std::vector<char> has_appeared;         ///< of those with From, whether they have been there
-    mutable std::vector<KeptPairs> kept;    ///< of each obstacle; no result depends on it
-    mutable Found                  found;   ///< no result depends on it
-    Reached                        reached; ///< where a step ended, of this process
-    SpaceVector3                   force_of_springs; ///< where a step ended, of this process [N]
-    std::vector<double>            node_areas;       ///< of the whole body, by node [m^2]
+    std::vector<Sums>             sums_of;     ///< of this process
+    std::vector<char> has_appeared;            ///< of those with From, whether they have been there
+    mutable std::vector<KeptPairs> kept;       ///< of each obstacle; no result depends on it
+    mutable Found                  found;      ///< no result depends on it
+    Reached                        reached;    ///< where a step ended, of this process
+    std::vector<double>            node_areas; ///< of the whole body, by node [m^2]
   };
 } // namespace Exemplar
 

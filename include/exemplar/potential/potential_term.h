@@ -112,6 +112,14 @@ namespace Exemplar
       return true;
     }
 
+    /// Whether its tangent depends on the step that has begun, and not on time, positions and weights alone: a tangent of an
+    /// earlier step cannot be made again then, as it must be after a resume.
+    virtual bool
+    has_tangent_of_step() const
+    {
+      return false;
+    }
+
     /// What the step with this end has made heat of [J], before end_step(). Empty: the term never makes any.
     virtual std::optional<double>
     dissipation(const State & /*end*/) const
@@ -253,6 +261,14 @@ namespace Exemplar
     moves_between(double /*time*/, double /*other_time*/) const
     {
       return false;
+    }
+
+    /// The piece of each node of this process, if springs of the term constrain rigid motions of pieces so weakly that
+    /// linear solvers have to treat these motions apart; else empty.
+    virtual std::vector<unsigned int>
+    weakly_constrained_pieces() const
+    {
+      return {};
     }
 
     /// A residual force [N] at these positions that is nothing but rounding.

@@ -2,62 +2,114 @@
 #ifndef exemplar_weak_springs_h
 #define exemplar_weak_springs_h
 
-#include <exemplar/algebra/free_dofs.h>
-#include <exemplar/algebra/spd_operator.h>
-#include <exemplar/obstacles/contact_surface.h>
-#include <exemplar/obstacles/obstacle_parameters.h>
-#include <exemplar/potential/evaluation.h>
+#include <exemplar/body/fe_space.h>
+#include <exemplar/potential/obstacle_term.h>
 
 namespace Exemplar
 {
-  /// Springs between a static body's surface and the places where it stands, so weak that what obstacles do hardly feels
-  /// them: k = factor E L of mean stiffness E and size L, in shares of the surface. They hold the motions that neither
-  /// handles nor obstacles do.
-  class WeakSprings
+  /// Springs between the surface of a static body and anchors. They constrain the rigid motions that neither handles nor
+  /// obstacles constrain, doc/contact.md, with k = factor E L in all (mean stiffness E, size L), in shares of the surface.
+  /// Barriers stay out of inverses that are kept for a step, these springs do not: without them such a matrix is singular.
+  class WeakSprings : public PotentialTerm
   {
   public:
-    /// `size` L is in m; at the places `rest` nothing pulls. All must outlive the object.
-    WeakSprings(FreeBodies kind, double size, const ContactSurface &surface, const Vector &rest);
+    /// With FreeBodies::weak_springs the anchors are the places at rest. With
+    /// FreeBodies::friction they follow the body, so that the friction of `obstacles`, which must come before this term
+    /// in the potential, bears the load alone. `size` is L in m. All must outlive the term.
+    WeakSprings(FreeBodies            kind,
+                double                size,
+                const ContactSurface &surface,
+                const Material       &material,
+                const FESpace        &fe_space,
+                const ObstacleTerm   &obstacles);
+
+    std::string
+    name() const override
+    {
+      return "weak springs";
+    }
 
     void
-    attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs)
+    attach(const SymmetricPattern &new_pattern, const FreeDofs &new_free_dofs) override
     {
       pattern   = &new_pattern;
       free_dofs = &new_free_dofs;
     }
 
-    /// An increment of statics begins at these positions. All processes must call this.
     void
-    begin_step(const Vector &positions);
+    follow_parameters() override
+    {
+      surface.set_material(material);
+    }
 
-    /// States belong to no increment from now on.
     void
-    leave_step()
+    begin_step(const State &start, double step_size) override;
+
+    TermChange
+    renew(const TermPoint &at) override;
+
+    bool
+    has_settled() const override
+    {
+      return n_renewals <= TouchingTerm::max_renewals;
+    }
+
+    std::vector<unsigned int>
+    weakly_constrained_pieces() const override
+    {
+      return pieces;
+    }
+
+    bool
+    has_tangent_of_step() const override
+    {
+      return kind == FreeBodies::friction;
+    }
+
+    void
+    end_step(const State &end) override;
+
+    void
+    leave_step() override
     {
       in_step = false;
     }
 
-    /// Friction holds from now on; false if it has held before, or need not.
-    bool
-    let_go();
+    void
+    add(const TermPoint &at, ElasticSums &sums) override;
 
     void
-    add(const Vector &positions, ElasticSums &sums) const;
+    add_tangent(const TermPoint     &at,
+                Tangent              kind,
+                std::vector<double> &values,
+                std::vector<double> &columns) override;
 
     void
-    add_tangent(std::vector<double> &values) const;
+    add_response(const TermPoint &at,
+                 Tangent          kind,
+                 const Vector    &displacement,
+                 ElasticSums     &sums) override;
 
     void
-    add_response(const Vector &displacement, ElasticSums &sums) const;
+    append_columns(double                                       energy,
+                   std::vector<std::pair<std::string, double>> &columns) const override;
 
-    /// On the body, of this process [N].
-    dealii::Tensor<1, 3>
-    force(const Vector &positions) const;
-
-    FreeBodies
-    get_kind() const
+    NoGradients
+    no_gradients() const override
     {
-      return kind;
+      return {};
+    }
+
+    void
+    save(boost::archive::binary_oarchive &archive) const override;
+
+    void
+    load(boost::archive::binary_iarchive &archive) override;
+
+    std::size_t
+    memory_consumption() const override
+    {
+      return surface.memory_consumption() + anchors.memory_consumption();
     }
 
   private:
@@ -65,15 +117,25 @@ namespace Exemplar
     double
     stiffness(const ContactSurface::Node &node) const;
 
-    const FreeBodies        kind;
-    const double            size;
-    const ContactSurface   &surface;
-    double                  by_area = 0.; ///< E L / surface [N/m^3]
-    Vector                  anchors;
-    bool                    in_step    = false;
-    bool                    has_let_go = false;
-    const SymmetricPattern *pattern    = nullptr; ///< since attach()
-    const FreeDofs         *free_dofs  = nullptr; ///< since attach()
+    /// The greatest force of a spring, of all processes [N].
+    double
+    greatest_force(const Vector &positions) const;
+
+    const FreeBodies                kind;
+    const double                    size;
+    ContactSurface                  surface; ///< with the shares of the material
+    const Material                 &material;
+    const ObstacleTerm             &obstacles;
+    const std::vector<unsigned int> pieces;       ///< of the nodes
+    double                          by_area = 0.; ///< E L / surface [N/m^3]
+    Vector                          anchors;
+    bool                            in_step    = false;
+    bool                            has_let_go = false; ///< friction holds the body now
+    unsigned int            n_looks = 0; ///< of the obstacles in the step, as of the last renew()
+    unsigned int            n_renewals = 0; ///< of the anchors in the step
+    SpaceVector3            force;          ///< on the body where a step ended, of this process [N]
+    const SymmetricPattern *pattern   = nullptr; ///< since attach()
+    const FreeDofs         *free_dofs = nullptr; ///< since attach()
   };
 } // namespace Exemplar
 

@@ -63,6 +63,8 @@ namespace Exemplar
       { "loads", actions.loads != nullptr && actions.loads->has_named_loads(),
         has_gravity ? 0 : loads },
       { "obstacles", actions.obstacles != nullptr, memory_of_term(problem, "obstacles") },
+      { "weak springs", memory_of_term(problem, "weak springs") > 0,
+        memory_of_term(problem, "weak springs") },
       { "body contact", actions.body_contacts != nullptr, memory_of_term(problem, "body contact") },
       { "ties", !problem.body.ties.empty(), memory_of_term(problem, "ties") },
       { "initial stresses", !actions.initial_stresses.empty(),

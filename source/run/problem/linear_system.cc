@@ -135,7 +135,8 @@ namespace Exemplar
     {
       potential.get_tangent().assemble_in_parts(true);
       matrix = make_iterative_operator(potential.get_free_dofs(),
-                                       tolerance_of_solves(solver, n_examples));
+                                       tolerance_of_solves(solver, n_examples),
+                                       potential.weakly_constrained_pieces());
       matrix->reinit(pattern);
     }
     if (potential.get_body().shears_unknowns())

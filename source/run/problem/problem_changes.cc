@@ -308,9 +308,10 @@ namespace Exemplar
       return;
     }
     actions.obstacles = std::move(added);
-    potential.add_term(std::make_unique<ObstacleTerm>(*actions.obstacles, *actions.contact_surface,
-                                                      body.material, body.fe_space.rest_positions(),
-                                                      actions.integrator.get()));
+    PotentialTerms terms;
+    actions.append_obstacle_terms(body, actions.integrator.get(), terms);
+    for (auto &term : terms)
+      potential.add_term(std::move(term));
     refresh(new_terms);
   }
 

@@ -7,6 +7,7 @@
 #include <exemplar/potential/obstacle_term.h>
 #include <exemplar/potential/shell_body.h>
 #include <exemplar/potential/tie_term.h>
+#include <exemplar/potential/weak_springs.h>
 #include <exemplar/prm/assignments.h>
 #include <exemplar/run/problem/problem_parts.h>
 
@@ -277,6 +278,21 @@ namespace Exemplar
         elastic_parts(parameters, body, poses, weights, free_dofs));
   }
 
+  void
+  Actions::append_obstacle_terms(const Body           &body,
+                                 const TimeIntegrator *integrator_of_terms,
+                                 PotentialTerms       &terms) const
+  {
+    auto term = std::make_unique<ObstacleTerm>(*obstacles, *contact_surface, body.material,
+                                               integrator_of_terms);
+    const ObstacleTerm &of_obstacles = *term;
+    terms.push_back(std::move(term));
+    if (integrator_of_terms == nullptr && obstacles->free != FreeBodies::refused)
+      terms.push_back(std::make_unique<WeakSprings>(obstacles->free, obstacles->diameter,
+                                                    *contact_surface, body.material, body.fe_space,
+                                                    of_obstacles));
+  }
+
   PotentialTerms
   Actions::make_terms(const Body           &body,
                       ElasticBody          *elastic,
@@ -289,9 +305,7 @@ namespace Exemplar
     if (loads != nullptr)
       terms.push_back(std::make_unique<LoadTerm>(*loads, body.fe_space));
     if (obstacles != nullptr)
-      terms.push_back(std::make_unique<ObstacleTerm>(*obstacles, *contact_surface, body.material,
-                                                     body.fe_space.rest_positions(),
-                                                     integrator_of_terms));
+      append_obstacle_terms(body, integrator_of_terms, terms);
     if (body_contacts != nullptr)
       terms.push_back(std::make_unique<BodyContactTerm>(*body_contacts, *contact_surface,
                                                         body.material, integrator_of_terms));

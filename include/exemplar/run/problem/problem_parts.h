@@ -161,6 +161,13 @@ namespace Exemplar
   {
     Actions(const SceneParameters &parameters, const Body &body, const BodyInputs &inputs);
 
+    /// Append the terms of obstacles, and of the springs that constrain what obstacles leave free in statics. The integrator is
+    /// null unless the scene is dynamic.
+    void
+    append_obstacle_terms(const Body           &body,
+                          const TimeIntegrator *integrator_of_terms,
+                          PotentialTerms       &terms) const;
+
     /// The terms of the potential for these, with the elastic body that initial stresses act in, and this time integrator, which is
     /// null unless the scene is dynamic.
     PotentialTerms
