@@ -47,6 +47,8 @@ namespace Exemplar
     {
       state    = std::move(trial.state);
       accepted = std::move(trial.linearization);
+      if (potential.has_tangent_of_step())
+        accepted = {}; // a resumed run could not make it again
     }
     return report;
   }
@@ -139,7 +141,7 @@ namespace Exemplar
     from.weights = trial.state.weights; // prescribed ones are those of the new time
     try
     {
-      const bool has_factor = tangent == Tangent::exact && find_factor(start);
+      const bool has_factor = tangent == Tangent::exact && find_factor(start, trial.state.time);
       potential.get_body().update_rotations(from.positions);
       potential.get_body().evaluate(from.positions, from.weights, evaluation.elastic);
       potential.get_body().add_response(tangent, displacement, from.positions, from.weights,
@@ -149,8 +151,8 @@ namespace Exemplar
         system.factorize(from.positions, from.weights, tangent == Tangent::convex ? 1. : 0.);
       system.add(system.solve(from, evaluation), trial.state);
       if (tangent == Tangent::exact && !has_factor && is_without_inertia(potential))
-        start.linearization
-            = { from.positions, from.weights, from.history, system.n_factorizations() };
+        start.linearization = { from.positions,   from.weights, from.history,
+                                trial.state.time, from.time,    system.n_factorizations() };
       return true;
     }
     catch (const SolverFailure &)
@@ -167,26 +169,33 @@ namespace Exemplar
   }
 
   bool
-  Newton::find_factor(Trial &start)
+  Newton::find_factor(Trial &start, const double time)
+  {
+    if (start.linearization.positions.size() == 0)
+      return false;
+    if (start.linearization.factor != system.n_factorizations())
+      remake_factor(start, time);
+    else
+      system.forget_earlier(start.linearization.positions);
+    return true;
+  }
+
+  void
+  Newton::remake_factor(Trial &start, const double time)
   {
     Linearization &linearization = start.linearization;
-    if (linearization.positions.size() == 0)
-      return false;
-    if (linearization.factor != system.n_factorizations())
-    {
-      // after a resume
-      ElasticBody &body = potential.get_body();
-      body.set_history(linearization.history);
-      body.update_rotations(linearization.positions);
-      system.factorize(linearization.positions, linearization.weights, 0.);
-      system.prepare();
-      system.count_as_remade();
-      body.set_history(start.state.history);
-      linearization.factor = system.n_factorizations();
-    }
-    else
-      system.forget_earlier(linearization.positions);
-    return true;
+    ElasticBody   &body          = potential.get_body();
+    body.set_history(linearization.history);
+    potential.set_time_of_terms(linearization.time);
+    potential.move_to(linearization.time_of_obstacles);
+    body.update_rotations(linearization.positions);
+    system.factorize(linearization.positions, linearization.weights, 0.);
+    system.prepare();
+    system.count_as_remade();
+    body.set_history(start.state.history);
+    potential.set_time_of_terms(time);
+    potential.move_to(start.state.time);
+    linearization.factor = system.n_factorizations();
   }
 
   void
@@ -264,7 +273,7 @@ namespace Exemplar
   Newton::take_step(Trial &trial, Evaluation &evaluation, SolveReport &report)
   {
     Linearization  here = { trial.state.positions, trial.state.weights, trial.state.history,
-                            Linearization::not_made };
+                            trial.state.time,      trial.state.time,    Linearization::not_made };
     BorderedVector step;
     if (!find_step(trial, evaluation, step, report)
         || !search_along(step, trial.state, evaluation, report))
@@ -283,14 +292,15 @@ namespace Exemplar
     const Vector positions = whole(potential.get_free_dofs().exchange(), accepted.positions);
     const std::vector<double> history
         = potential.get_body().history_order().whole(accepted.history);
-    archive &positions &accepted.weights &history;
+    archive &positions &accepted.weights &history &accepted.time &accepted.time_of_obstacles;
   }
 
   void
   Newton::load(boost::archive::binary_iarchive &archive)
   {
     accepted = {};
-    archive &accepted.positions &accepted.weights &accepted.history;
+    archive &accepted.positions &accepted.weights &accepted.history &accepted.time &accepted
+        .time_of_obstacles;
     accepted.history   = potential.get_body().history_order().part(accepted.history);
     accepted.positions = part(potential.get_free_dofs().exchange(), accepted.positions);
   }

@@ -23,6 +23,21 @@ BOX = {
 }
 DYNAMIC = {**BOX, "Scene": "dynamic", "Time/Increments": None, "Time/Step": "0.01", "Time/End": "0.18"}
 STATIC = {**BOX, "Scene": "static", "Time/Increments": "10"}
+# Friction, anchors of springs, obstacles that go, and tensions make the tangent, whose factor serves the next increment, too.
+FLOOR = {"Obstacles/Names": "floor", "Obstacles/floor/Shape": "box 1 -2 -3  3 2 -0.55", "Obstacles/floor/Motion": "0.1*t; 0; 0.3*t"}
+PLATES = {"Handles/Names": None, "Handles/left/Select": None, "Handles/left/Motion": None, "Loads/Gravity": None,
+          "Obstacles/Names": "below, above", "Obstacles/below/Shape": "plane 0 0 -0.5  0 0 1", "Obstacles/below/Friction": "0.5",
+          "Obstacles/above/Shape": "plane 0 0 0.5  0 0 -1", "Obstacles/above/Motion": "0.05*t; 0; -0.2*t", "Obstacles/above/Friction": "0.5"}
+OF_STEPS = {"friction": {**FLOOR, "Obstacles/floor/Friction": "0.5"}, "a floor that goes": {**FLOOR, "Obstacles/floor/Until": "0.45"},
+            "tension": {"Material/Fibre direction": "1; 0.2; 0", "Material/Fibre tension": "1000*t"},
+            "held by friction": {**PLATES, "Obstacles/Free": "friction"}, "held by springs": {**PLATES, "Obstacles/Free": "weak springs"}}
+
+
+def sheet(n, m):
+    """A curved sheet of 2 m x 1 m, as an .obj."""
+    lines = [f"v {2 * x / n:.9g} {y / m:.9g} {0.1 * (x / n) * (1 - x / n):.9g}\n" for y in range(m + 1) for x in range(n + 1)]
+    corners = [y * (n + 1) + x + 1 for y in range(m) for x in range(n)]
+    return "".join(lines + [f"f {a} {a + 1} {a + n + 2}\nf {a} {a + n + 2} {a + n + 1}\n" for a in corners])
 
 
 def names(output):
@@ -46,6 +61,20 @@ class ResumeFrom(SceneTest):
                             "green": {**DYNAMIC, "Model/Strain": "green"}, "static": STATIC}.items():
             with self.subTest(name):
                 self.check_unchanged(scene, "8")
+
+    def test_static_scenes_whose_tangent_is_that_of_a_step(self):
+        for name, changes in OF_STEPS.items():
+            with self.subTest(name):
+                self.check_unchanged({**STATIC, "Examples/Pose functions": None, **changes}, "4")
+
+    def test_a_shell_whose_edge_is_let_go_at_that_step(self):
+        self.write("sheet.obj", sheet(8, 4))
+        shell = {"Scene": "dynamic", "Time/Scheme": "bdf2", "Time/Step": "0.01", "Time/End": "0.12", "Mesh/Kind": "shell",
+                 "Mesh/File": "sheet.obj", "Material/Thickness": "0.02", "Material/Young's modulus": "1e6", "Output/Every": "4",
+                 "Output/Keep states": "true", "Loads/Gravity": "0, 0, -9.81", "Handles/Names": "left, right",
+                 "Handles/left/Select": "box -1 -1 -1 1e-6 9 9", "Handles/right/Select": "box 1.99 -1 -1 9 9 9", "Handles/right/Slopes": "held",
+                 "Handles/right/Motion": "0; 0; t", "Handles/right/Until": "0.08"}
+        self.check_unchanged(shell, "8")
 
     def test_from_the_start_and_from_the_checkpoint(self):
         self.check_unchanged(DYNAMIC, "0")

@@ -61,8 +61,10 @@ namespace Exemplar
 
       Vector              positions; ///< empty: there is none
       std::vector<double> weights;
-      std::vector<double> history;           ///< State::history at the beginning of its step
-      unsigned int        factor = not_made; ///< its number in StepSystem
+      std::vector<double> history;                ///< State::history at the beginning of its step
+      double              time              = 0.; ///< of loads and tensions [s]
+      double              time_of_obstacles = 0.; ///< they stood where they are then [s]
+      unsigned int        factor            = not_made; ///< its number in StepSystem
     };
 
     /// A state on the way to that of the step's end.
@@ -115,9 +117,13 @@ namespace Exemplar
     bool
     is_descent_of_flow(const State &from, const State &to, Evaluation &evaluation);
 
-    /// Have the factor of its linearization in the system; false if there is none.
+    /// Have the factor of its linearization in the system; false if there is none. The terms are those of `time` [s].
     bool
-    find_factor(Trial &start);
+    find_factor(Trial &start, double time);
+
+    /// Make the factor of the linearization of `start` again, as after a resume.
+    void
+    remake_factor(Trial &start, double time);
 
     void
     iterate(unsigned int max_iterations, Trial &trial, Evaluation &evaluation, SolveReport &report);

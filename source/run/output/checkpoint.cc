@@ -56,7 +56,7 @@ namespace Exemplar
   namespace
   {
     /// The first line. The number is increased with each change of the format.
-    const std::string format = "exemplar checkpoint 14";
+    const std::string format = "exemplar checkpoint 15";
 
     const std::string without_resume = " Run the scene without --resume.";
 

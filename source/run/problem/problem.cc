@@ -239,10 +239,12 @@ namespace Exemplar
     solver->forget();
     if (!slopes_held.empty())
       hold_slopes_as_in(std::max(state.step, 1U) - 1);
-    follow_time(state.time);
-    if (!solver_memory.empty())
+    if (solver_memory.empty())
+      follow_time(state.time);
+    else
     {
-      follow_time(time_axis.time(std::max(state.step, 1U) - 1)); // memory is of the last step
+      // memory is of the last step, and slopes that are released and held again are others by rounding
+      follow_time(time_axis.time(std::max(state.step, 1U) - 1));
       std::istringstream              bytes(solver_memory);
       boost::archive::binary_iarchive archive(bytes);
       solver->load(archive);
