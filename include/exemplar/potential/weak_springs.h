@@ -44,6 +44,10 @@ namespace Exemplar
     void
     add(const Vector &positions, ElasticSums &sums) const;
 
+    /// The part of their energy that is lost where the next step begins, whose springs have other anchors [J].
+    double
+    lost_energy(const Vector &positions) const;
+
     void
     add_tangent(std::vector<double> &values) const;
 
