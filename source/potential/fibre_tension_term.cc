@@ -222,6 +222,27 @@ namespace Exemplar
     return is_free && tensions_at(one) != tensions_at(other);
   }
 
+  std::optional<EnergyFlow>
+  FibreTensionTerm::energy_flow(const State &start, const State &end) const
+  {
+    const std::vector<double> before = tensions_at(start.time);
+    const auto n_points = static_cast<unsigned int>(points_per_cell(fe_space.element()));
+    double     by_start = 0., by_end = 0.;
+    for (std::size_t i = 0; i < active_cells.size(); ++i)
+    {
+      const unsigned int cell   = active_cells[i];
+      const double       change = tension[cell] - before[i];
+      for (unsigned int k = 0; change != 0. && k < n_points; ++k)
+      {
+        const unsigned int point = n_points * cell + k;
+        const double       share = change * fe_space.volume(point);
+        by_start += share * curve(cell).at(fibre(point, start.positions)->stretch).energy;
+        by_end += share * curve(cell).at(fibre(point, end.positions)->stretch).energy;
+      }
+    }
+    return EnergyFlow{ true, 0., 0.5 * (by_start + by_end), 0.5 * std::abs(by_end - by_start) };
+  }
+
   std::optional<FibreTensionTerm::Fibre>
   FibreTensionTerm::fibre(const unsigned int point, const Vector &positions) const
   {

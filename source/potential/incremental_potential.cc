@@ -119,9 +119,14 @@ namespace Exemplar
   }
 
   void
-  IncrementalPotential::end_step(State &end)
+  IncrementalPotential::remember(State &end)
   {
     end.history = body.advance_history(end.positions);
+  }
+
+  void
+  IncrementalPotential::end_step(State &end)
+  {
     end.dissipated += weights.get_memory().dissipation(end.weights).total();
     for (const auto &term : terms)
     {

@@ -51,6 +51,15 @@ namespace Exemplar
     return heat;
   }
 
+  double
+  TouchingTerm::energy_of_friction(const Vector &positions) const
+  {
+    double energy = 0.;
+    for (const Rubbing &at : rubbing_step().rubbing)
+      energy += slip_energy(at).value(slip(at, positions).norm());
+    return energy;
+  }
+
   std::optional<Rubbing>
   TouchingTerm::rubbing_of(const Touch &touch, const PairKey key, const double coefficient)
   {

@@ -110,6 +110,17 @@ namespace Exemplar
     }
   }
 
+  double
+  WeakSprings::lost_energy(const Vector &positions) const
+  {
+    double energy = 0.;
+    if (kind == FreeBodies::friction && in_step)
+      for (const ContactSurface::Node &node : surface.nodes)
+        energy += 0.5 * stiffness(node)
+                  * (at_node(positions, node.node) - at_node(anchors, node.node)).norm_square();
+    return energy;
+  }
+
   void
   WeakSprings::add_tangent(const TermPoint & /*at*/,
                            const Tangent /*kind*/,

@@ -152,6 +152,8 @@ namespace Exemplar
       log.warn(idle_obstacle_warnings(problem));
       if (const std::string starts = starts_text(problem); !starts.empty())
         log.say(starts);
+      if (problem.get_audit() != nullptr)
+        log.say(problem.get_audit()->notes());
       writer.finish(status_name(problem.parameters.solver.method == Method::one_pass
                                     ? SolveStatus::one_pass
                                     : SolveStatus::converged),

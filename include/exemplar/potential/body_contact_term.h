@@ -46,6 +46,12 @@ namespace Exemplar
     std::optional<double>
     dissipation(const State &end) const override;
 
+    std::optional<EnergyFlow>
+    energy_flow(const State & /*start*/, const State &end) const override
+    {
+      return EnergyFlow{ true, energy_of_friction(end.positions), 0., 0. };
+    }
+
     void
     end_step(const State &end) override;
 

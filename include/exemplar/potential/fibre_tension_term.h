@@ -86,6 +86,9 @@ namespace Exemplar
     bool
     differs(double time, double other_time) const override;
 
+    std::optional<EnergyFlow>
+    energy_flow(const State &start, const State &end) const override;
+
     void
     add(const TermPoint &at, ElasticSums &sums) override;
 

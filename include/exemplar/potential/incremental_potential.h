@@ -80,8 +80,11 @@ namespace Exemplar
     TermChange
     renew(const State &at, Evaluation &evaluation, bool is_solved);
 
-    /// The step that has begun is accepted, with this end, of which the rotations are. It gets what
-    /// the laws remember, and what the step has dissipated.
+    /// The end of the step that has begun, of which the rotations are, gets what the laws remember.
+    void
+    remember(State &end);
+
+    /// The step is accepted, with this end, which knows what the laws remember and gets what the step has dissipated.
     void
     end_step(State &end);
 

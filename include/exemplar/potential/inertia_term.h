@@ -58,6 +58,12 @@ namespace Exemplar
         columns.emplace_back("energy_inertia", energy);
     }
 
+    std::optional<EnergyFlow>
+    energy_flow(const State & /*start*/, const State & /*end*/) const override
+    {
+      return EnergyFlow{ false, 0., 0., 0. };
+    }
+
     NoGradients
     no_gradients() const override
     {

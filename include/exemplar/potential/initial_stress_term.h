@@ -51,6 +51,12 @@ namespace Exemplar
       columns.emplace_back("energy_balance", energy);
     }
 
+    std::optional<EnergyFlow>
+    energy_flow(const State & /*start*/, const State & /*end*/) const override
+    {
+      return EnergyFlow();
+    }
+
     NoGradients
     no_gradients() const override
     {

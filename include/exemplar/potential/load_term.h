@@ -30,6 +30,9 @@ namespace Exemplar
     void
     add(const TermPoint &at, ElasticSums &sums) override;
 
+    std::optional<EnergyFlow>
+    energy_flow(const State &start, const State &end) const override;
+
     NoGradients
     no_gradients() const override
     {
@@ -40,11 +43,16 @@ namespace Exemplar
     memory_consumption() const override;
 
   private:
+    /// Set the forces to those of a time [s] at the nodes that this process owns [N].
+    void
+    find_forces(double time, Vector &forces) const;
+
     const Loads   &loads;
     const FESpace &fe_space;
-    Vector         force;        ///< f of the time that is set, at the nodes of this process [N]
-    Vector         force_norms;  ///< of each node [N]
-    Vector         displacement; ///< memory of add()
+    Vector         force;          ///< f of the time that is set, at the nodes of this process [N]
+    Vector         force_norms;    ///< of each node [N]
+    Vector         displacement;   ///< memory of add()
+    mutable Vector force_at_start; ///< memory of energy_flow()
   };
 } // namespace Exemplar
 

@@ -53,6 +53,9 @@ namespace Exemplar
     std::optional<double>
     dissipation(const State &end) const override;
 
+    std::optional<EnergyFlow>
+    energy_flow(const State &start, const State &end) const override;
+
     void
     end_step(const State &end) override;
 
@@ -202,6 +205,10 @@ namespace Exemplar
     /// contacts() of range 1, which are kept until the next call: forces, their rounding and their gaps are asked for at the same positions.
     const std::vector<Contact> &
     touches(const Vector &positions) const;
+
+    /// Of each obstacle the force [N] on the body and its moment about the obstacle's place [N m], of this process.
+    std::vector<std::pair<SpaceVector3, SpaceVector3>>
+    pushes(const Vector &positions) const;
 
     /// Which obstacles are there in the step that begins at this state. Throws SolverFailure for one that appears where
     /// the body is.

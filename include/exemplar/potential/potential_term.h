@@ -44,6 +44,16 @@ namespace Exemplar
     unsigned int n_components = 3;
   };
 
+  /// What a step has done to the energy of a term, of this process, for EnergyAudit.
+  struct EnergyFlow
+  {
+    bool   is_stored = true; ///< whether the body can get the term's energy back, less `lost`
+    double lost = 0.; ///< part of the energy at the end of the step: potentials of friction [J]
+    double work
+        = 0.; ///< of loads, or of what moves or changes the term, by the trapezoidal rule [J]
+    double doubt = 0.; ///< half of the difference between the rules of the start and of the end [J]
+  };
+
   /// Why a term has no gradients, as in "There are no gradients {what} yet. {remedy}". Empty: it has.
   struct NoGradients
   {
@@ -123,6 +133,13 @@ namespace Exemplar
     /// What the step with this end has made heat of [J], before end_step(). Empty: the term never makes any.
     virtual std::optional<double>
     dissipation(const State & /*end*/) const
+    {
+      return {};
+    }
+
+    /// The flow of energy in the step with this start and this end, before end_step(). Empty: it is not known.
+    virtual std::optional<EnergyFlow>
+    energy_flow(const State & /*start*/, const State & /*end*/) const
     {
       return {};
     }

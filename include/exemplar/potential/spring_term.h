@@ -65,6 +65,12 @@ namespace Exemplar
                  const Vector    &displacement,
                  ElasticSums     &sums) override;
 
+    std::optional<EnergyFlow>
+    energy_flow(const State & /*start*/, const State & /*end*/) const override
+    {
+      return EnergyFlow();
+    }
+
     std::size_t
     memory_consumption() const override;
 

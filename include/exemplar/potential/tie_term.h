@@ -64,6 +64,12 @@ namespace Exemplar
     void
     append_fields(const Vector &positions, std::vector<NodalField> &fields) const override;
 
+    std::optional<EnergyFlow>
+    energy_flow(const State & /*start*/, const State & /*end*/) const override
+    {
+      return EnergyFlow();
+    }
+
     NoGradients
     no_gradients() const override
     {

@@ -124,6 +124,10 @@ namespace Exemplar
     double
     heat_of_all(const Vector &positions) const;
 
+    /// The potential of all that rubs, which is no stored energy [J].
+    double
+    energy_of_friction(const Vector &positions) const;
+
     /// Append what the models of solvers know of friction.
     void
     append_gaps_of_friction(const Vector &positions, std::vector<Gap> &gaps) const;

@@ -84,6 +84,10 @@ namespace Exemplar
                 std::vector<double> &values,
                 std::vector<double> &columns) override;
 
+    /// The part of their energy that is lost where the next step begins, whose springs have other anchors [J].
+    double
+    lost_energy(const Vector &positions) const;
+
     void
     add_response(const TermPoint &at,
                  Tangent          kind,

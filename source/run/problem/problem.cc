@@ -123,6 +123,8 @@ namespace Exemplar
                                                time_axis.n_steps()));
       session->play(std::move(recorded.events), parameters.session);
     }
+    if (EnergyAudit::is_possible(*this))
+      audit = std::make_unique<EnergyAudit>(*this);
   }
 
   void
@@ -174,6 +176,70 @@ namespace Exemplar
       session->begin_step();
     check_weights(*this, interval);
     follow_time(state.time);
+    bool        gains_energy = false;
+    SolveReport report       = make_step(interval, gains_energy);
+    if (gains_energy && has_parts(interval))
+      report = make_step_in_parts(interval, report);
+    if (is_success(report.status) && on_step)
+      on_step(spare, interval.size);
+    return report;
+  }
+
+  bool
+  Problem::has_parts(const StepInterval &interval) const
+  {
+    return parameters.scene == SceneKind::statics
+           && (potential.is_driven(state, interval.end)
+               || constraints.handles.are_elsewhere(interval.end, state.positions));
+  }
+
+  SolveReport
+  Problem::make_step_in_parts(const StepInterval &interval, const SolveReport &refused)
+  {
+    const State       begin           = state;
+    const std::string memory          = solver_memory();
+    const auto        return_to_begin = [&]
+    {
+      resume_from(begin, memory);
+      follow_time(state.time);
+    };
+    for (const unsigned int n : { 4U, 16U, 64U })
+    {
+      bool        gains_energy = false;
+      SolveReport sum;
+      try
+      {
+        for (unsigned int k = 1; k <= n && (k == 1 || is_success(sum.status)); ++k)
+        {
+          state.step = begin.step;
+          const double end
+              = k == n ? interval.end : begin.time + k * (interval.end - begin.time) / n;
+          SolveReport part = make_step({ end, interval.size / n }, gains_energy);
+          part.iterations += sum.iterations;
+          part.factorizations += sum.factorizations;
+          part.load_stages += sum.load_stages;
+          sum = std::move(part);
+        }
+      }
+      catch (...)
+      {
+        return_to_begin();
+        throw;
+      }
+      if (is_success(sum.status))
+      {
+        audit->count_parts(state.step);
+        spare = begin;
+        return sum;
+      }
+      return_to_begin();
+    }
+    return refused;
+  }
+
+  SolveReport
+  Problem::make_step(const StepInterval &interval, bool &gains_energy)
+  {
     constraints.handles.begin_step(state.time, state.positions);
     State &next = spare;
     next        = state;
@@ -214,14 +280,43 @@ namespace Exemplar
     }
     if (is_success(report.status))
     {
+      potential.remember(next);
+      gains_energy = audit_step(next, interval, report);
+    }
+    if (is_success(report.status))
+    {
       potential.end_step(next);
       std::swap(state, next);
-      if (on_step)
-        on_step(next, interval.size);
     }
     else
       solver->forget(); // its memory includes the failed step
     return report;
+  }
+
+  bool
+  Problem::audit_step(const State &next, const StepInterval &interval, SolveReport &report)
+  {
+    if (audit == nullptr)
+      return false;
+    if (parameters.solver.starts == Starts::examples && interval.end == end_of_scene(*this))
+    {
+      audit->restart("Solver/Starts = examples");
+      return false;
+    }
+    const std::string failure = audit->add_step(state, next);
+    if (failure.empty())
+      return false;
+    report.status  = SolveStatus::failed;
+    report.failure = failure;
+    elastic->set_history(state.history);
+    return true;
+  }
+
+  void
+  Problem::restart_audit(const std::string &what)
+  {
+    if (audit != nullptr)
+      audit->restart(what);
   }
 
   void
@@ -250,12 +345,16 @@ namespace Exemplar
       solver->load(archive);
       for (const auto &term : potential.get_terms())
         term->load(archive);
+      if (audit != nullptr)
+        audit->load(archive);
       potential.get_tangent().follow_couplings();
       if (bytes.peek() != std::char_traits<char>::eof())
         throw boost::archive::archive_exception(
             boost::archive::archive_exception::input_stream_error);
     }
     start(state);
+    if (audit != nullptr && solver_memory.empty())
+      audit->restart("the state");
   }
 
   std::string
@@ -267,6 +366,8 @@ namespace Exemplar
       solver->save(archive);
       for (const auto &term : potential.get_terms())
         term->save(archive);
+      if (audit != nullptr)
+        audit->save(archive);
     }
     return bytes.str();
   }

@@ -76,11 +76,18 @@ namespace Exemplar
   }
 
   void
+  Problem::count_change(const std::string &what)
+  {
+    changes.count(what);
+    restart_audit(what);
+  }
+
+  void
   Problem::change_handles(const std::function<void(Handles &)> &change)
   {
     refuse_interpolation(parameters, "handles to change.");
     constraints.change_handles(change, parameters, body);
-    changes.count("grab() or let_go()");
+    count_change("grab() or let_go()");
     follow_slopes();
     refresh(new_handles);
   }
@@ -90,6 +97,7 @@ namespace Exemplar
   {
     if (!constraints.follow_time(time, parameters, body))
       return;
+    restart_audit("handles catch or release (From, Until)");
     follow_slopes();
     refresh(new_handles);
   }
@@ -131,7 +139,7 @@ namespace Exemplar
   Problem::set_material(const ChangedConstants &changed)
   {
     body.material = body.material.with(changed);
-    changes.count("set_material()");
+    count_change("set_material()");
     const bool has_same_elasticity
         = changed.youngs_modulus.empty() && changed.poissons_ratio.empty();
     refresh((changed.density.empty() ? nothing : new_density)
@@ -155,7 +163,7 @@ namespace Exemplar
   Problem::set_importance(const double importance)
   {
     check_importance(importance);
-    changes.count("importance");
+    count_change("importance");
     parameters.examples.importance = importance;
     if (body.material.has_elasticity_of_examples())
       body.material = body.material.with_examples(parameters.examples.elasticity(), importance);
@@ -166,7 +174,7 @@ namespace Exemplar
   Problem::hold_weights(const std::vector<double> &weights)
   {
     examples.weights.hold(weights);
-    changes.count("hold_weights()");
+    count_change("hold_weights()");
   }
 
   void
@@ -186,7 +194,7 @@ namespace Exemplar
   Problem::set_gravity(const std::array<double, 3> &acceleration)
   {
     require_loads();
-    changes.count("gravity");
+    count_change("gravity");
     actions.loads->set_gravity(acceleration, body.fe_space, body.material);
     parameters.loads.gravity = acceleration;
     refresh(new_loads);
@@ -196,7 +204,7 @@ namespace Exemplar
   Problem::set_nodal_forces(Vector forces)
   {
     require_loads();
-    changes.count("nodal_forces");
+    count_change("nodal_forces");
     actions.loads->set_nodal_forces(std::move(forces));
     refresh(new_loads);
   }
@@ -235,6 +243,7 @@ namespace Exemplar
             "there.",
             key, cell));
     actions.held_tensions = std::move(tensions);
+    restart_audit("tension");
     refresh(new_loads);
   }
 
@@ -262,6 +271,7 @@ namespace Exemplar
     const unsigned int   law = check_tension(region, tension) + 1;
     if (actions.held_tensions.empty())
       actions.held_tensions.assign(all.of_cells.size(), FibreTensionTerm::not_held);
+    restart_audit("tension");
     for (std::size_t cell = 0; cell < all.of_cells.size(); ++cell)
       if (all.of_cells[cell] == law)
         actions.held_tensions[cell] = all.factors.empty() ? tension : tension * all.factors[cell];
@@ -274,7 +284,7 @@ namespace Exemplar
   {
     refuse_interpolation(parameters, "terms of one's own. Set Scene = static or dynamic.");
     std::unique_ptr<PotentialTerm> term = make();
-    changes.count("add_term()");
+    count_change("add_term()");
     actions.own_terms.push_back({ make, term.get() });
     potential.add_term(std::move(term));
     refresh(new_terms);
@@ -298,7 +308,7 @@ namespace Exemplar
     check_obstacle_motions(*added, body, time_axis);
     suit_obstacles(*added, *actions.contact_surface, body, state.positions, state.time,
                    actions.notes);
-    changes.count("add_obstacle()");
+    count_change("add_obstacle()");
     parameters.obstacles.named.push_back(obstacle);
     if (actions.obstacles != nullptr)
     {
@@ -344,7 +354,7 @@ namespace Exemplar
     std::vector<dealii::Point<3>> back;
     for (unsigned int node = 0; node < body.fe_space.n_nodes(); ++node)
       back.emplace_back(before[3 * node], before[3 * node + 1], before[3 * node + 2]);
-    changes.count("set_pose()");
+    count_change("set_pose()");
     const auto change_to = [&](const std::vector<dealii::Point<3>> &pose)
     {
       examples.poses.set_pose(i, pose);
@@ -374,7 +384,7 @@ namespace Exemplar
   Problem::set_damping(const double mass_damping, const double stiffness_damping)
   {
     check_damping(mass_damping, stiffness_damping);
-    changes.count("mass_damping or stiffness_damping");
+    count_change("mass_damping or stiffness_damping");
     actions.integrator->set_damping(mass_damping, stiffness_damping);
     refresh(new_damping);
     parameters.time.mass_damping      = mass_damping;

@@ -303,6 +303,9 @@ namespace Exemplar
                                  describe_miss(problem), describe_crushed(problem) })
       if (warning)
         all.push_back(*warning);
+    if (problem.get_audit() != nullptr)
+      for (const std::string &warning : problem.get_audit()->warnings())
+        all.push_back(warning);
     // strains of 1e-4 are no rounding, unless cells or weights have memory
     const double energy = problem.evaluation.elastic.energy;
     const bool   remembers

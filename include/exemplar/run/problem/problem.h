@@ -4,6 +4,7 @@
 
 #include <exemplar/algebra/conditioning.h>
 #include <exemplar/base/step_clock.h>
+#include <exemplar/run/problem/energy_audit.h>
 #include <exemplar/run/problem/laboratory.h>
 #include <exemplar/run/problem/problem_parts.h>
 #include <exemplar/run/problem/session_player.h>
@@ -163,6 +164,17 @@ namespace Exemplar
       }
     };
 
+    /// Tell the audit of energies that `what` changes from outside, so that it begins again.
+    void
+    restart_audit(const std::string &what);
+
+    /// The audit of energies; null for a scene that has none.
+    const EnergyAudit *
+    get_audit() const
+    {
+      return audit.get();
+    }
+
     /// Changes since the problem was made; an increased count tells of more.
     const Changes &
     get_changes() const
@@ -237,6 +249,27 @@ namespace Exemplar
     void
     follow_slopes();
 
+    /// Count a change of `what` from outside, named as in messages.
+    void
+    count_change(const std::string &what);
+
+    /// advance() for held nodes and events of sessions that are those of the step. `gains_energy`: whether the audit of
+    /// energies has refused it.
+    SolveReport
+    make_step(const StepInterval &interval, bool &gains_energy);
+
+    /// Turn a report on the step to `next` into a failure if the audit of energies refuses it. Returns whether it does.
+    bool
+    audit_step(const State &next, const StepInterval &interval, SolveReport &report);
+
+    /// Whether an increment of statics that ends there may be made in parts.
+    bool
+    has_parts(const StepInterval &interval) const;
+
+    /// Make an increment that the audit has refused, with this report, again in parts, whose work is known better.
+    SolveReport
+    make_step_in_parts(const StepInterval &interval, const SolveReport &refused);
+
     /// Make loads if there are none. Throws UserError for an interpolation.
     void
     require_loads();
@@ -246,6 +279,7 @@ namespace Exemplar
     State                          spare;   ///< memory of a step's end, with the one before in it
     std::unique_ptr<Laboratory>    lab;     ///< null until it is used
     std::unique_ptr<SessionPlayer> session; ///< null unless the scene has one
+    std::unique_ptr<EnergyAudit>   audit;   ///< null where energies have no balance
   };
 
   /// Reads or makes the body of a problem.

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "expect_contains.h"
+#include "scene.h"
+
+#include <gtest/gtest.h>
+
+namespace Exemplar::Testing
+{
+  namespace
+  {
+    EnergyStep
+    at_step(const unsigned int step,
+            const double       stored,
+            const double       work,
+            const double       doubt = 0.)
+    {
+      EnergyStep at;
+      at.step   = step;
+      at.stored = at.size = stored;
+      at.work             = work;
+      at.doubt            = doubt;
+      return at;
+    }
+
+    EnergyStep
+    moving(const unsigned int step, const double stored, const double kinetic, const double work)
+    {
+      EnergyStep at = at_step(step, stored, work);
+      at.kinetic    = kinetic;
+      at.size += kinetic;
+      return at;
+    }
+
+    TEST(EnergyAudit, DeadLoadsPayForTwiceTheEnergyOfALinearBody)
+    {
+      EnergyBalance balance(false);
+      balance.begin(at_step(0, 0., 0.));
+      EXPECT_FALSE(balance.add(at_step(1, 3., 6.)));
+      EXPECT_FALSE(balance.add(at_step(2, 3., 0.)));
+    }
+
+    TEST(EnergyAudit, EnergyWithoutWorkIsAFailure)
+    {
+      EnergyBalance balance(false);
+      balance.begin(at_step(0, 10., 0.));
+      EXPECT_FALSE(balance.add(at_step(1, 10.009, 0.)));
+      const auto excess = balance.add(at_step(2, 10.012, 0.));
+      ASSERT_TRUE(excess);
+      EXPECT_EQ(excess->since, 0u);
+      EXPECT_DOUBLE_EQ(excess->grown, 10.012 - 10.);
+      EXPECT_EQ(excess->work, 0.);
+      EXPECT_FALSE(balance.add(at_step(2, 10.01, 0.))); // a failure has changed nothing
+    }
+
+    TEST(EnergyAudit, LostEnergyPaysForNothing)
+    {
+      EnergyBalance balance(false);
+      balance.begin(at_step(0, 10., 0.));
+      EXPECT_FALSE(balance.add(at_step(1, 4., 0.)));
+      EXPECT_FALSE(balance.add(at_step(2, 3., -0.5)));
+      const auto excess = balance.add(at_step(3, 6., 0.25));
+      ASSERT_TRUE(excess);
+      EXPECT_EQ(excess->since, 2u);
+      EXPECT_DOUBLE_EQ(excess->grown, 3.);
+      EXPECT_DOUBLE_EQ(excess->work, 0.25);
+    }
+
+    TEST(EnergyAudit, WorkThatIsNotKnownIsAllowed)
+    {
+      EnergyBalance balance(false);
+      balance.begin(at_step(0, 0., 0.));
+      EXPECT_FALSE(balance.add(at_step(1, 3., 2., 0.9995)));
+      EXPECT_TRUE(balance.add(at_step(2, 4., 0., 0.99)));
+      EXPECT_FALSE(balance.add(at_step(2, 4., 0., 0.9995)));
+    }
+
+    TEST(EnergyAudit, AStepOfDynamicsMayUseItsKineticEnergy)
+    {
+      EnergyBalance balance(true);
+      balance.begin(moving(0, 1., 9., 0.));
+      EXPECT_FALSE(balance.add(moving(1, 10., 0., 0.)));
+      EXPECT_FALSE(balance.gain());
+      EXPECT_FALSE(balance.add(moving(2, 10.005, 0.02, 0.))); // 0.25 %
+      EXPECT_FALSE(balance.gain());
+      EXPECT_FALSE(balance.add(moving(3, 10., 0.06, 0.))); // 0.6 %
+      ASSERT_TRUE(balance.gain());
+      EXPECT_EQ(balance.gain()->since, 1u);
+      EXPECT_EQ(balance.gain()->until, 3u);
+      EXPECT_NEAR(balance.gain()->energy, 0.06, 1e-12);
+      const auto excess = balance.add(moving(4, 10.1, 0., 0.02));
+      ASSERT_TRUE(excess);
+      EXPECT_DOUBLE_EQ(excess->grown, 10.1);
+      EXPECT_DOUBLE_EQ(excess->work, 10.08);
+    }
+
+    /// An energy [J] from a time on that nothing pays for.
+    class Gift : public PotentialTerm
+    {
+    public:
+      Gift(const double energy, const double from) : energy(energy), from(from) {}
+
+      std::string
+      name() const override
+      {
+        return "gift";
+      }
+
+      std::optional<EnergyFlow>
+      energy_flow(const State & /*start*/, const State & /*end*/) const override
+      {
+        return EnergyFlow();
+      }
+
+      void
+      set_time(const double new_time) override
+      {
+        time = new_time;
+      }
+
+      void
+      add(const TermPoint & /*at*/, ElasticSums &sums) override
+      {
+        sums->energy += time > from ? energy : 0.;
+      }
+
+      std::size_t
+      memory_consumption() const override
+      {
+        return sizeof(*this);
+      }
+
+    private:
+      const double energy, from;
+      double       time = 0.;
+    };
+
+    std::string
+    dragged(const std::string &kind)
+    {
+      return "set Scene = " + kind + "\n" + bar + drag
+             + "subsection Time\n set Increments = 8\n set Step = 0.05\n set End = 0.4\nend\n"
+               "subsection Solver\n set Method = newton\nend\n";
+    }
+
+    /// The report on the step in which the audit finds a gift at half of the time, or on the last one.
+    SolveReport
+    report_with_gift(const double energy, const std::string &kind)
+    {
+      Scene scene(dragged(kind));
+      scene.problem.add_term(
+          [=] { return std::make_unique<Gift>(energy, kind == "static" ? .5 : .2); });
+      SolveReport report;
+      for (unsigned int step = 0; step < 8; ++step)
+        if (report = scene.problem.advance(); !is_success(report.status))
+        {
+          EXPECT_EQ(scene.problem.state.step, 4u);
+          expect_contains(scene.problem.failure_message(report), "Step 5 failed: ");
+          break;
+        }
+      return report;
+    }
+
+    TEST(EnergyAudit, AStepThatIsGivenEnergyFails)
+    {
+      for (const std::string kind : { "static", "dynamic" })
+      {
+        EXPECT_TRUE(is_success(report_with_gift(1., kind).status)) << kind;
+        const SolveReport report = report_with_gift(1e6, kind);
+        EXPECT_EQ(report.status, SolveStatus::failed) << kind;
+        expect_contains(report.failure, kind == "static" ? "the work on the body is only"
+                                                         : "the stored energy is 1");
+      }
+    }
+
+    TEST(EnergyAudit, BeginsAgainAfterChanges)
+    {
+      Scene scene(dragged("static"));
+      ASSERT_NE(scene.problem.get_audit(), nullptr);
+      scene.problem.advance();
+      EXPECT_EQ(scene.problem.get_audit()->notes(), "");
+      scene.problem.set_gravity({ { 0., 0., -5. } });
+      scene.problem.set_gravity({ { 0., 0., -9. } });
+      EXPECT_TRUE(is_success(scene.problem.advance().status));
+      expect_contains(scene.problem.get_audit()->notes(), "once, first after step 1: gravity");
+    }
+
+    TEST(EnergyAudit, NeedsEnergies)
+    {
+      EXPECT_EQ(Scene(dragged("static"), { "Solver/Method=one pass" }).problem.get_audit(),
+                nullptr);
+      EXPECT_EQ(Scene(dragged("static"), { "Model/Gradient=frozen" }).problem.get_audit(), nullptr);
+      EXPECT_EQ(Scene(dragged("dynamic"), { "Time/Scheme=bdf2" }).problem.get_audit(), nullptr);
+      EXPECT_NE(Scene(dragged("dynamic")).problem.get_audit(), nullptr);
+    }
+  } // namespace
+} // namespace Exemplar::Testing
