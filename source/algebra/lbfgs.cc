@@ -3,6 +3,7 @@
 #include <exemplar/algebra/long_vectors.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace Exemplar
 {
@@ -13,9 +14,11 @@ namespace Exemplar
     if (!(curvature > 0.))
       return false;
     if (pairs.size() == max_pairs)
-      std::rotate(pairs.begin(), pairs.begin() + 1, pairs.end()); // the oldest becomes the newest
-    else
-      pairs.emplace_back();
+      drop_oldest();
+    if (spare.empty())
+      spare.emplace_back();
+    pairs.push_back(std::move(spare.back()));
+    spare.pop_back();
     Pair &newest = pairs.back();
     newest.s.swap(s);
     newest.y.swap(y);
@@ -23,6 +26,59 @@ namespace Exemplar
     newest.inverse_y.clear();
     newest.products.clear();
     return true;
+  }
+
+  void
+  Lbfgs::drop_oldest()
+  {
+    std::deque<Pair> &to = n_kept > 0 ? gone : spare;
+    to.push_back(std::move(pairs.front()));
+    pairs.pop_front();
+    n_kept -= n_kept > 0 ? 1 : 0;
+  }
+
+  void
+  Lbfgs::clear()
+  {
+    while (!pairs.empty())
+      drop_oldest();
+    spare.clear();
+  }
+
+  void
+  Lbfgs::keep()
+  {
+    n_kept = pairs.size();
+    for (; !gone.empty(); gone.pop_front())
+      if (pairs.size() + spare.size() < max_pairs + 1)
+        spare.push_back(std::move(gone.front()));
+  }
+
+  void
+  Lbfgs::go_back()
+  {
+    pairs.erase(pairs.begin() + n_kept, pairs.end());
+    pairs.insert(pairs.begin(), std::make_move_iterator(gone.begin()),
+                 std::make_move_iterator(gone.end()));
+    gone.clear();
+    n_kept = pairs.size();
+    for (Pair &pair : pairs)
+    {
+      pair.inverse_y.clear(); // by an inverse that may have been replaced
+      pair.products.clear();
+    }
+  }
+
+  std::size_t
+  Lbfgs::memory_consumption() const
+  {
+    std::size_t bytes = 0;
+    for (const std::deque<Pair> *some : { &pairs, &gone, &spare })
+      for (const Pair &pair : *some)
+        bytes
+            += sizeof(double) * (pair.s.capacity() + pair.y.capacity() + pair.inverse_y.capacity())
+               + sizeof(double) * 2 * pair.products.capacity();
+    return bytes;
   }
 
   void

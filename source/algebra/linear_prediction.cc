@@ -38,7 +38,10 @@ namespace Exemplar
   void
   LinearPrediction::add(std::vector<double> &vector)
   {
-    if (history.size() < order + 1)
+    has_left = history.size() == order + 1;
+    if (has_left)
+      left.swap(history.back());
+    else
       history.emplace_back();
     std::rotate(history.begin(), history.end() - 1, history.end());
     history.front().swap(vector);
@@ -46,6 +49,18 @@ namespace Exemplar
       for (std::size_t j = i; j < history.size(); ++j)
         products[i][j] = products[i - 1][j - 1];
     multiply_out(0);
+  }
+
+  void
+  LinearPrediction::take_back()
+  {
+    std::rotate(history.begin(), history.begin() + 1, history.end());
+    if (has_left)
+      history.back().swap(left);
+    else
+      history.pop_back();
+    for (std::size_t i = history.size(); i-- > 0;)
+      multiply_out(i);
   }
 
   bool

@@ -104,7 +104,7 @@ namespace Exemplar
       if (!ended && done < n_steps && now >= next_sign())
       {
         last_shown = now;
-        show(done + 1, duration_text(seconds_between(step_begin, now)), under_way);
+        show(done + 1, duration_text(seconds_between(step_begin, now)) + " so far", under_way);
       }
       else if (!ended && done == n_steps)
         changed.wait(lock); // wait for the end

@@ -6,6 +6,12 @@
 namespace Exemplar
 {
   std::string
+  counted(const std::size_t n, const std::string &noun)
+  {
+    return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+  }
+
+  std::string
   trim(const std::string &text)
   {
     const auto first = text.find_first_not_of(" \t\r\n");

@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/handle_parameters.h>
+#include <exemplar/prm/expression.h>
 #include <exemplar/prm/key_table.h>
 
 namespace Exemplar
@@ -91,7 +92,7 @@ namespace Exemplar
   {
     const std::string key = "Handles/" + name;
     const bool        has_motion
-        = split_trimmed(motion, ';') != split_trimmed(HandleParameters().motion, ';');
+        = split_formulas(motion, 3) != split_formulas(HandleParameters().motion, 3);
     if (!follow_cache.empty() && (has_motion || !follow_pose.empty()))
       throw UserError(key + "/Follow cache and " + key
                       + (has_motion ? "/Motion = '" + motion + "'" : "/Follow pose")

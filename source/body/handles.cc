@@ -2,6 +2,7 @@
 #include <exemplar/algebra/agreement.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/base/plain_name.h>
 #include <exemplar/body/handle_overlaps.h>
 #include <exemplar/body/handles.h>
 
@@ -109,6 +110,7 @@ namespace Exemplar
     if (named != handles.end() && named->holds)
       throw UserError("There is a handle '" + name
                       + "' already. Give another name, or let that one go first.");
+    require_plain_name(name, "Handle");
     if (!motion)
       throw UserError("Handle '" + name + "' has no motion. Give a function of place and time.");
     const std::string               key    = "Handles/" + name;

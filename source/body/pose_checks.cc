@@ -4,6 +4,7 @@
 #include <exemplar/kernels/matrix3.h>
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/prm/assignments.h>
+#include <exemplar/prm/expression.h>
 
 #include <fmt/core.h>
 
@@ -150,7 +151,7 @@ namespace Exemplar
   {
     std::string  places, coordinates = "xyz";
     unsigned int n_lacking = 0;
-    for (const std::string &formula : split_trimmed(functions, ';'))
+    for (const std::string &formula : split_formulas(functions, 3))
     {
       const std::string coordinate     = coordinates.substr(0, 1);
       const bool        needs_brackets = formula.find_first_of("?<>=&|") != std::string::npos;

@@ -246,14 +246,18 @@ namespace Exemplar
       void
       read_nodes(const Options &options)
       {
-        require_only(options, { "NSET" }, "NODE");
+        require_only(options, { "NSET", "SYSTEM" }, "NODE");
+        if (const auto system = options.find("SYSTEM");
+            system != options.end() && in_capitals(system->second) != "R")
+          text.fail("*NODE has SYSTEM=" + system->second.substr(0, 40)
+                    + ". Write coordinates in the global rectangular system (SYSTEM=R).");
         AbaqusSet *const set = set_of(node_sets, options, "NSET");
         while (next_data())
         {
           const auto        words  = data();
           const long long   number = text.integer_of(words[0], "the number of a node");
           const std::string what   = fmt::format("a coordinate of node {}", number);
-          if (words.size() != 4)
+          if (words.size() < 4 || words.size() > 7) // a normal may follow
             text.fail(
                 fmt::format("node {} has {} coordinates instead of three. A line of *NODE is: "
                             "number, x, y, z.",
@@ -330,12 +334,18 @@ namespace Exemplar
       void
       read_set(const std::string &kind, const Options &options)
       {
-        require_only(options, { kind, "GENERATE", "UNSORTED", "INTERNAL" }, kind);
-        auto            &sets = kind == "NSET" ? node_sets : element_sets;
+        const bool is_of_nodes = kind == "NSET";
+        require_only(options,
+                     { kind, "GENERATE", "UNSORTED", "INTERNAL", is_of_nodes ? "ELSET" : kind },
+                     kind);
+        auto            &sets = is_of_nodes ? node_sets : element_sets;
         AbaqusSet *const set  = set_of(sets, options, kind);
         if (set == nullptr)
           text.fail("*" + kind + " has no name. Write " + kind + "=NAME behind it.");
         const std::string what = "an entry of the set " + in_quotes(set->name);
+        if (const auto of_elements = options.find("ELSET");
+            is_of_nodes && of_elements != options.end())
+          add_nodes_of(*set, of_elements->second, what);
         while (next_data())
         {
           const auto words = data();
@@ -350,6 +360,16 @@ namespace Exemplar
             else
               add_other(*set, sets, word, what);
         }
+      }
+
+      void
+      add_nodes_of(AbaqusSet &set, const std::string &elset, const std::string &what)
+      {
+        AbaqusSet of_elements;
+        add_other(of_elements, element_sets, elset, what);
+        for (const Element &element : elements)
+          if (of_elements.numbers.count(element.number) > 0)
+            set.numbers.insert(element.nodes.begin(), element.nodes.end());
       }
 
       void

@@ -6,7 +6,9 @@
 
 #include <fmt/core.h>
 
+#include <cctype>
 #include <cmath>
+#include <map>
 
 namespace Exemplar
 {
@@ -78,11 +80,30 @@ namespace Exemplar
         else if (name == "FIELD")
           read_field();
         else if (name == "METADATA")
-          while (text.n_bytes_left() > 0 && !words_of(text.rest_of_line()).empty())
-          {
-          }
+          pass_metadata();
+        else if (name == "LOOKUP_TABLE")
+          pass_lookup_table();
         else
           read_attribute(name);
+      }
+
+      /// Behind the word METADATA: VTK and ParaView describe the array before in a block that ends with an empty line.
+      void
+      pass_metadata()
+      {
+        text.rest_of_line();
+        while (text.n_bytes_left() > 0 && !words_of(text.rest_of_line()).empty())
+        {
+        }
+      }
+
+      /// Colours: four numbers from 0 to 1 each, or four bytes.
+      void
+      pass_lookup_table()
+      {
+        text.word("the name of a lookup table");
+        const std::size_t n = text.count("the size of a lookup table");
+        values(checked_product(4, n), is_binary ? "unsigned_char" : "float", "colours");
       }
 
       /// Each section is there once.
@@ -159,21 +180,78 @@ namespace Exemplar
           array.name = std::string(text.word("the name of an array"));
           if (array.name == "METADATA") // belongs to the array before
           {
-            while (text.n_bytes_left() > 0 && !words_of(text.rest_of_line()).empty())
-            {
-            }
+            pass_metadata();
             array.name = std::string(text.word("the name of an array"));
           }
+          array.name                 = decoded(array.name);
           array.n_components         = text.count("the number of components");
           const std::size_t n_tuples = text.count("the number of entries");
           const std::string type     = std::string(text.word("a type of numbers"));
           if (type == "string")
-            text.fail("the array " + array.name
-                      + " holds texts, which are not read. Save the mesh without it.");
+          {
+            text.rest_of_line();
+            pass_strings(checked_product(array.n_components, n_tuples));
+            continue;
+          }
+          if (type == "bit")
+          {
+            pass_bits(checked_product(array.n_components, n_tuples));
+            continue;
+          }
           array.values = values(checked_product(array.n_components, n_tuples), type,
                                 "entries of " + array.name);
           add(std::move(array));
         }
+      }
+
+      /// A line of each in ASCII; else the length, of which the first two bits say in how many bytes it stands.
+      void
+      pass_strings(const std::size_t n)
+      {
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          if (!is_binary)
+          {
+            text.rest_of_line();
+            continue;
+          }
+          const auto  byte   = [&] { return static_cast<unsigned char>(text.raw(1, "a text")[0]); };
+          const auto  first  = byte();
+          std::size_t length = first & 63U;
+          for (unsigned int more = (1U << (3U - (first >> 6U))) - 1U; more > 0; --more)
+            length = length << 8U | byte();
+          text.raw(length, "the end of a text");
+        }
+      }
+
+      void
+      pass_bits(const std::size_t n)
+      {
+        text.rest_of_line();
+        if (is_binary)
+          text.raw((n + 7) / 8, "the end of an array of bits");
+        else
+          for (std::size_t i = 0; i < n; ++i)
+            text.number("a bit");
+      }
+
+      /// A name in which VTK has written blanks and others as %20.
+      static std::string
+      decoded(const std::string &name)
+      {
+        std::string result;
+        for (std::size_t i = 0; i < name.size(); ++i)
+        {
+          unsigned int code = 0;
+          if (name[i] == '%' && i + 2 < name.size() && std::isxdigit(name[i + 1]) != 0
+              && std::isxdigit(name[i + 2]) != 0)
+          {
+            code = static_cast<unsigned int>(std::stoul(name.substr(i + 1, 2), nullptr, 16));
+            i += 2;
+          }
+          result += code > 0 ? static_cast<char>(code) : name[i];
+        }
+        return result;
       }
 
       std::size_t
@@ -197,21 +275,31 @@ namespace Exemplar
       void
       read_attribute(const std::string &kind)
       {
-        const std::size_t n_components = kind == "SCALARS"                        ? 1
-                                         : kind == "VECTORS" || kind == "NORMALS" ? 3
-                                         : kind == "TENSORS"                      ? 9
-                                                                                  : 0;
-        if (n_components == 0)
+        static const std::map<std::string, std::size_t> kinds{
+          { "SCALARS", 1 },      { "VECTORS", 3 },      { "NORMALS", 3 },
+          { "TENSORS", 9 },      { "TENSORS6", 6 },     { "TEXTURE_COORDINATES", 1 },
+          { "GLOBAL_IDS", 1 },   { "PEDIGREE_IDS", 1 }, { "EDGE_FLAGS", 1 },
+          { "COLOR_SCALARS", 1 }
+        };
+        const auto found = kinds.find(kind);
+        if (found == kinds.end())
           text.fail(
               "'" + kind.substr(0, 40)
               + "' is no section that is read: these are POINTS, CELLS, CELL_TYPES, CELL_DATA and "
                 "POINT_DATA with SCALARS, VECTORS, NORMALS, TENSORS and FIELD. Save the mesh "
                 "without others.");
         VtkArray array;
-        array.name             = std::string(text.word("the name of an array"));
-        const std::string type = std::string(text.word("a type of numbers"));
+        array.name         = decoded(std::string(text.word("the name of an array")));
+        array.n_components = found->second;
+        if (kind == "TEXTURE_COORDINATES" || kind == "COLOR_SCALARS")
+          array.n_components = text.count("the number of components");
+        const std::string type = kind != "COLOR_SCALARS"
+                                     ? std::string(text.word("a type of numbers"))
+                                 : is_binary ? "unsigned_char"
+                                             : "float";
         const auto        more = words_of(text.rest_of_line());
-        array.n_components     = n_components;
+        if (type == "string")
+          return pass_strings(checked_product(array.n_components, n_items));
         if (kind == "SCALARS")
         {
           if (!more.empty())

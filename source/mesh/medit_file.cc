@@ -41,10 +41,25 @@ namespace Exemplar
     };
 
     constexpr PassedSection passed_sections[] = {
-      { "Corners", 1 },          { "RequiredVertices", 1 },  { "Ridges", 1 },
-      { "RequiredEdges", 1 },    { "RequiredTriangles", 1 }, { "RequiredTetrahedra", 1 },
-      { "RequiredFaces", 1 },    { "Normals", 3 },           { "Tangents", 3 },
-      { "NormalAtVertices", 2 }, { "TangentAtVertices", 2 }, { "NormalAtTriangleVertices", 3 },
+      { "Corners", 1 },
+      { "RequiredVertices", 1 },
+      { "Ridges", 1 },
+      { "RequiredEdges", 1 },
+      { "RequiredTriangles", 1 },
+      { "RequiredTetrahedra", 1 },
+      { "RequiredFaces", 1 },
+      { "Normals", 3 },
+      { "Tangents", 3 },
+      { "NormalAtVertices", 2 },
+      { "TangentAtVertices", 2 },
+      { "NormalAtTriangleVertices", 3 },
+      { "TangentAtEdges", 3 },
+      { "RequiredQuadrilaterals", 1 },
+      { "NormalAtQuadrilateralVertices", 3 },
+      { "ParallelVertices", 1 },
+      { "ParallelEdges", 1 },
+      { "ParallelTriangles", 1 },
+      { "SubDomainFromMesh", 4 },
     };
 
     class MeditReader

@@ -13,7 +13,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
+#include <set>
+#include <tuple>
 #include <utility>
 
 namespace Exemplar
@@ -127,20 +130,24 @@ namespace Exemplar
       }
 
       void
-      add(const MshElement &triangle)
+      add(const MshElement &triangle, const int tag)
       {
         const auto        nodes = ascending_nodes(triangle);
-        const auto        id    = static_cast<unsigned int>(std::abs(triangle.physical));
+        const auto        id    = static_cast<unsigned int>(std::abs(tag));
         const std::size_t face  = find_face(boundary, nodes);
         if (face < boundary.size())
         {
-          if (ids[face] != 0 && ids[face] != id)
-            repeated.push_back(triangle.number);
-          else
+          of_boundary.insert(id);
+          if (ids[face] == 0)
             ids[face] = id;
+          else if (ids[face] != id)
+            further.insert({ nodes, id, face });
         }
         else if (find_face(faces, nodes) < faces.size())
-          internal.push_back(triangle.number);
+        {
+          internal[id].push_back(triangle.number);
+          further.insert({ nodes, id, boundary.size() });
+        }
         else
           stray.push_back(triangle.number);
       }
@@ -153,15 +160,12 @@ namespace Exemplar
                           + list_numbers(stray)
                           + ". Take surfaces that bound no volume out of the Physical Surfaces, or "
                             "mesh surfaces and volumes together.");
-        if (!internal.empty())
-          warnings.push_back(fmt::format(
-              "{}: {} physical triangles between two tetrahedra have no boundary id: element {}.",
-              name, internal.size(), list_numbers(internal)));
-        if (!repeated.empty())
-          warnings.push_back(
-              fmt::format("{}: {} boundary triangles appear again with another physical tag; the "
-                          "first tag counts, not that of element {}.",
-                          name, repeated.size(), list_numbers(repeated)));
+        for (const auto &[id, triangles] : internal)
+          if (of_boundary.count(id) > 0)
+            warnings.push_back(fmt::format(
+                "{}: the boundary {} has {} triangles between two tetrahedra, too: element {}. "
+                "'boundary {}' selects the nodes of all its triangles.",
+                name, id, triangles.size(), list_numbers(triangles), id));
       }
 
       std::vector<BoundaryFace>
@@ -173,13 +177,29 @@ namespace Exemplar
         return result;
       }
 
+      std::vector<BoundaryFace>
+      further_faces(const std::vector<std::array<unsigned int, 4>> &cells) const
+      {
+        std::vector<BoundaryFace> result;
+        for (const auto &[nodes, id, face] : further)
+          result.push_back({ face < boundary.size()
+                                 ? outward_nodes(boundary[face], cells[boundary[face].cell])
+                                 : nodes,
+                             id });
+        return result;
+      }
+
     private:
-      const std::vector<CellFace> &faces;
-      std::vector<CellFace>        boundary;
-      std::vector<unsigned int>    ids;
-      std::vector<std::size_t>     stray;
-      std::vector<std::size_t>     internal;
-      std::vector<std::size_t>     repeated;
+      /// Ascending nodes, boundary id, and index in `boundary`, or its size for a face between two cells.
+      using FurtherFace = std::tuple<std::array<unsigned int, 3>, unsigned int, std::size_t>;
+
+      const std::vector<CellFace>                     &faces;
+      std::vector<CellFace>                            boundary;
+      std::vector<unsigned int>                        ids;
+      std::set<FurtherFace>                            further;
+      std::set<unsigned int>                           of_boundary; ///< ids
+      std::map<unsigned int, std::vector<std::size_t>> internal;    ///< numbers of triangles, by id
+      std::vector<std::size_t>                         stray;
     };
 
     dealii::SubCellData
@@ -272,7 +292,11 @@ namespace Exemplar
     BoundaryIds boundary_ids(faces);
     for (const MshElement &element : contents.elements)
       if (element.type == MshElementType::triangle && element.physical != 0)
-        boundary_ids.add(element);
+      {
+        boundary_ids.add(element, element.physical);
+        for (const int tag : further_groups_of(contents, element))
+          boundary_ids.add(element, tag);
+      }
     boundary_ids.report(name, mesh.warnings);
 
     mesh.contents        = std::move(contents);
@@ -280,6 +304,7 @@ namespace Exemplar
     mesh.material_ids    = std::move(tetrahedra.material_ids);
     mesh.element_numbers = std::move(tetrahedra.element_numbers);
     mesh.boundary_faces  = boundary_ids.boundary_faces(mesh.cells);
+    mesh.further_faces   = boundary_ids.further_faces(mesh.cells);
     return mesh;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/base/words.h>
 #include <exemplar/mesh/mesh_checks.h>
 
 #include <fmt/core.h>
@@ -18,12 +19,6 @@ namespace Exemplar
   {
     constexpr double flat_tolerance = 1e-12;
     constexpr double largest_place  = 1e50; ///< [m]; energies grow as its fifth power
-
-    std::string
-    in_words(const std::size_t n, const std::string &noun)
-    {
-      return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s");
-    }
 
     void
     check_element_kinds(const MshFile &contents, const std::string &name)
@@ -50,7 +45,7 @@ namespace Exemplar
           "of other kinds: {}). Mesh with tetrahedra of first order: Mesh.ElementOrder = 1, no "
           "Recombine, no Transfinite Volume with Recombine.",
           name, refused.front(), kind != nullptr ? kind->name : "element of unknown type",
-          in_words(refused.size(), "element"), list_numbers(refused)));
+          counted(refused.size(), "element"), list_numbers(refused)));
     }
 
     /// Refuse a mesh in which some coordinate is the same at all nodes.
@@ -155,7 +150,7 @@ namespace Exemplar
     if (!flat.empty() && flat.size() == tetrahedra.nodes.size())
       refuse_flat_mesh(contents, name);
     if (!flat.empty())
-      throw UserError(name + ": " + in_words(flat.size(), "tetrahedron")
+      throw UserError(name + ": " + counted(flat.size(), "tetrahedron")
                       + " without volume (at "
                         "most 1e-12 of the cube of the longest edge): element "
                       + list_numbers(flat)
@@ -203,7 +198,7 @@ namespace Exemplar
       if (!used[node])
         orphans.push_back(contents.node_numbers[node]);
     if (!orphans.empty())
-      throw UserError(name + ": " + in_words(orphans.size(), "node") + " in no tetrahedron: node "
+      throw UserError(name + ": " + counted(orphans.size(), "node") + " in no tetrahedron: node "
                       + list_numbers(orphans)
                       + ". Remove construction points and surfaces that bound no volume from the "
                         "geometry, put every volume in a Physical Volume, and save the mesh anew.");

@@ -6,6 +6,7 @@
 #include <exemplar/mesh/format_readers.h>
 #include <exemplar/mesh/mesh_file.h>
 #include <exemplar/mesh/mesh_text.h>
+#include <exemplar/mesh/msh_nodes.h>
 
 #include <algorithm>
 
@@ -99,7 +100,11 @@ namespace Exemplar
       return read_tetgen_files(file);
     const Reader *const reader = find_reader(extension);
     if (reader == nullptr)
-      return read_msh(file);
+    {
+      MshFile msh = read_msh(file);
+      drop_construction_points(msh, file.string());
+      return msh;
+    }
     std::string       bytes     = bytes_of(file);
     const std::string beginning = bytes.substr(0, 200);
     try

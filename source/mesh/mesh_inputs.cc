@@ -4,6 +4,7 @@
 #include <exemplar/mesh/mesh_generation.h>
 #include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/mesh/mesh_joining.h>
+#include <exemplar/mesh/msh_nodes.h>
 #include <exemplar/mesh/quadratic_msh.h>
 
 #include <fmt/core.h>
@@ -18,8 +19,11 @@ namespace Exemplar
     msh_of(const MeshParameters &parameters)
     {
       const std::filesystem::path path(parameters.file);
-      return path.extension() == ".geo" ? mesh_geo_file(path, parameters.allow_commands)
-                                        : read_mesh_file(path);
+      if (path.extension() != ".geo")
+        return read_mesh_file(path);
+      MshFile msh = mesh_geo_file(path, parameters.allow_commands);
+      drop_construction_points(msh, parameters.file);
+      return msh;
     }
 
     MshFile

@@ -52,6 +52,9 @@ namespace Exemplar
           for (const int one : { e.physical, e.elementary })
             tag = std::max(tag, static_cast<std::size_t>(std::abs(static_cast<long long>(one))));
         }
+        for (const auto &[entity, tags] : file.further_groups)
+          for (const int one : tags)
+            tag = std::max(tag, static_cast<std::size_t>(std::abs(static_cast<long long>(one))));
       }
       return { power_of_ten_above(node), power_of_ten_above(element), power_of_ten_above(tag) };
     }
@@ -79,6 +82,9 @@ namespace Exemplar
         if (const auto dimension = static_cast<int>(dimension_of(element));
             element.physical != 0 || dimension == 3)
           groups.emplace(dimension, element.physical);
+      for (const auto &[entity, tags] : file.further_groups)
+        for (const int tag : tags)
+          groups.emplace(entity.first, tag);
       for (const auto &[group, of_group] : file.physical_names)
         groups.insert(group);
       const auto n_regions = std::count_if(groups.begin(), groups.end(),
@@ -118,6 +124,10 @@ namespace Exemplar
       }
       for (const auto &[group, name] : names_of_groups(file, placed.name))
         joined.physical_names[{ group.first, moved_tag(group.second, k, strides) }] = name;
+      for (const auto &[entity, tags] : file.further_groups)
+        for (const int tag : tags)
+          joined.further_groups[{ entity.first, moved_tag(entity.second, k, strides) }].push_back(
+              moved_tag(tag, k, strides));
       for (MshElement &element : file.elements)
       {
         element.number += k * strides.elements;

@@ -11,7 +11,8 @@ namespace Exemplar
   part_of(const Mesh                      &whole,
           const std::vector<unsigned int> &nodes,
           const std::vector<unsigned int> &cells,
-          const std::vector<unsigned int> &faces)
+          const std::vector<unsigned int> &faces,
+          const std::vector<unsigned int> &further_faces)
   {
     const auto renumber = [&](auto &numbers)
     {
@@ -31,10 +32,12 @@ namespace Exemplar
     own.material_ids            = chosen(whole.get_material_ids(), cells);
     own.cells                   = chosen(whole.get_cells(), cells);
     own.boundary_faces          = chosen(whole.get_boundary_faces(), faces);
+    own.further_faces           = chosen(whole.get_further_faces(), further_faces);
     for (auto &cell : own.cells)
       renumber(cell);
-    for (BoundaryFace &face : own.boundary_faces)
-      renumber(face.nodes);
+    for (std::vector<BoundaryFace> *const some : { &own.boundary_faces, &own.further_faces })
+      for (BoundaryFace &face : *some)
+        renumber(face.nodes);
     for (const unsigned int cell : cells)
       own.element_numbers.push_back(whole.element_number(cell));
     return part;

@@ -78,6 +78,8 @@ namespace Exemplar
     resolve_node_numbers();
     if (version_4)
       resolve_entities();
+    else
+      merge_repeated_cells();
     return std::move(msh);
   }
 
@@ -116,9 +118,10 @@ namespace Exemplar
   MshReader::read_format()
   {
     const std::string version(in.text_word());
-    if (version != "2.2" && version != "4.1")
+    if (version != "2" && version != "2.0" && version != "2.1" && version != "2.2"
+        && version != "4.1")
       in.fail("MSH version " + version
-              + " is not supported (2.2 and 4.1 are). Convert it: "
+              + " is not supported (2.0 to 2.2 and 4.1 are). Convert it: "
                 "gmsh FILE -save -format msh22 -o NEW.msh");
     version_4                = (version == "4.1");
     const int binary         = in.text_int();
@@ -273,6 +276,26 @@ namespace Exemplar
                               number));
   }
 
+  const std::vector<int> &
+  further_groups_of(const MshFile &msh, const MshElement &element)
+  {
+    static const std::vector<int> none;
+    if (msh.further_groups.empty())
+      return none;
+    const auto dimension = static_cast<int>(find_msh_element_kind(element.type)->dimension);
+    const auto found     = msh.further_groups.find({ dimension, element.elementary });
+    return found == msh.further_groups.end() ? none : found->second;
+  }
+
+  bool
+  is_in_group(const MshFile &msh, const MshElement &element, const unsigned int tag)
+  {
+    const auto is_it
+        = [tag](const int one) { return static_cast<unsigned int>(std::abs(one)) == tag; };
+    const std::vector<int> &further = further_groups_of(msh, element);
+    return is_it(element.physical) || std::any_of(further.begin(), further.end(), is_it);
+  }
+
   MshFile
   read_msh(const std::filesystem::path &file)
   {
@@ -360,9 +383,7 @@ namespace Exemplar
         const std::size_t n_physical = in.read_size();
         for (std::size_t k = 0; k < n_physical; ++k)
         {
-          const int physical = checked_tag(in.read_int());
-          if (k == 0)
-            entity_physical[std::pair(dimension, tag)] = physical;
+          entity_physical[std::pair(dimension, tag)].push_back(checked_tag(in.read_int()));
         }
         const std::size_t n_bounding = (dimension == 0) ? 0 : in.read_size();
         for (std::size_t k = 0; k < n_bounding; ++k)
@@ -432,7 +453,59 @@ namespace Exemplar
       const unsigned int dimension = find_msh_element_kind(element.type)->dimension;
       const auto         entity    = entity_physical.find(std::pair(dimension, element.elementary));
       if (entity != entity_physical.end())
-        element.physical = entity->second;
+        element.physical = entity->second.front();
     }
+    for (const auto &[entity, tags] : entity_physical)
+      if (tags.size() > 1)
+        msh.further_groups[{ static_cast<int>(entity.first), entity.second }].assign(
+            tags.begin() + 1, tags.end());
+  }
+
+  void
+  MshReader::merge_repeated_cells()
+  {
+    std::map<int, std::set<int>> tags; // of each volume
+    for (const MshElement &element : msh.elements)
+      if (element.type == MshElementType::tetrahedron
+          || element.type == MshElementType::quadratic_tetrahedron)
+        tags[element.elementary].insert(element.physical);
+    for (const auto &[volume, of_volume] : tags)
+      if (of_volume.size() > 1)
+        merge_cells_of(volume, of_volume.size());
+  }
+
+  void
+  MshReader::merge_cells_of(const int volume, const std::size_t n_groups)
+  {
+    std::map<std::vector<std::size_t>, std::vector<std::size_t>> copies; // by their nodes
+    for (std::size_t i = 0; i < msh.elements.size(); ++i)
+      if (const MshElement &element = msh.elements[i];
+          element.elementary == volume && find_msh_element_kind(element.type)->dimension == 3)
+        copies[element.nodes].push_back(i);
+    const auto groups_of = [&](const std::vector<std::size_t> &cells)
+    {
+      std::vector<int> groups;
+      for (const std::size_t cell : cells)
+        groups.push_back(msh.elements[cell].physical);
+      return groups;
+    };
+    const std::vector<int> groups = groups_of(copies.begin()->second);
+    for (const auto &[nodes, cells] : copies)
+      if (cells.size() != n_groups || groups_of(cells) != groups)
+        return; // other programs have one entity with several groups
+    std::vector<bool> keep(msh.elements.size(), true);
+    for (const auto &[nodes, cells] : copies)
+      for (std::size_t i = 1; i < cells.size(); ++i)
+        keep[cells[i]] = false;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < keep.size(); ++i)
+      if (keep[i])
+      {
+        if (n != i)
+          msh.elements[n] = std::move(msh.elements[i]);
+        ++n;
+      }
+    msh.elements.resize(n);
+    msh.further_groups[{ 3, volume }].assign(groups.begin() + 1, groups.end());
   }
 } // namespace Exemplar

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <sstream>
@@ -103,22 +104,44 @@ namespace Exemplar
       out << "$EndNodes\n";
     }
 
+    /// Elements as their further groups repeat them, with numbers above all others.
+    std::vector<MshElement>
+    repeated_elements(const MshFile &msh)
+    {
+      std::vector<MshElement> repeated;
+      if (msh.further_groups.empty())
+        return repeated;
+      std::size_t number = 0;
+      for (const MshElement &element : msh.elements)
+        number = std::max(number, element.number);
+      for (const MshElement &element : msh.elements)
+        for (const int tag : further_groups_of(msh, element))
+        {
+          repeated.push_back(element);
+          repeated.back().number   = ++number;
+          repeated.back().physical = tag;
+        }
+      return repeated;
+    }
+
     void
     write_elements(const MshFile &msh, std::ostream &out)
     {
-      out << fmt::format("$Elements\n{}\n", msh.elements.size());
+      const std::vector<MshElement> repeated = repeated_elements(msh);
+      out << fmt::format("$Elements\n{}\n", msh.elements.size() + repeated.size());
       LineWriter line(out);
-      for (const MshElement &element : msh.elements)
-      {
-        line.integer(element.number);
-        line.integer(element.type);
-        line.integer(2); // tags
-        line.integer(element.physical);
-        line.integer(element.elementary);
-        for (const std::size_t node : element.nodes)
-          line.integer(msh.node_numbers[node]);
-        line.end_line();
-      }
+      for (const std::vector<MshElement> *const some : { &msh.elements, &repeated })
+        for (const MshElement &element : *some)
+        {
+          line.integer(element.number);
+          line.integer(element.type);
+          line.integer(2); // tags
+          line.integer(element.physical);
+          line.integer(element.elementary);
+          for (const std::size_t node : element.nodes)
+            line.integer(msh.node_numbers[node]);
+          line.end_line();
+        }
       line.flush();
       out << "$EndElements\n";
     }

@@ -3,6 +3,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/mesh/mesh_edges.h>
+#include <exemplar/mesh/msh_nodes.h>
 #include <exemplar/mesh/quadratic_msh.h>
 
 #include <fmt/core.h>
@@ -64,28 +65,6 @@ namespace Exemplar
       }
     }
 
-    /// Remove the nodes for which `keep` is false.
-    void
-    remove_nodes(MshFile &msh, const std::vector<bool> &keep)
-    {
-      std::vector<std::size_t> index(keep.size());
-      std::size_t              n = 0;
-      for (std::size_t i = 0; i < keep.size(); ++i)
-      {
-        index[i] = n;
-        if (!keep[i])
-          continue;
-        msh.nodes[n]        = msh.nodes[i];
-        msh.node_numbers[n] = msh.node_numbers[i];
-        ++n;
-      }
-      msh.nodes.resize(n);
-      msh.node_numbers.resize(n);
-      for (MshElement &element : msh.elements)
-        for (std::size_t &node : element.nodes)
-          node = index[node];
-    }
-
     std::vector<const MshElement *>
     elements_of(const MshFile &msh, const unsigned int type)
     {
@@ -145,6 +124,13 @@ namespace Exemplar
       element.type = pair->linear;
       element.nodes.resize(pair->n_corners);
     }
+    // sets of nodes name middles, too, which a selection of the ends of an edge includes
+    msh.elements.erase(std::remove_if(msh.elements.begin(), msh.elements.end(),
+                                      [&](const MshElement &element) {
+                                        return element.type == MshElementType::point
+                                               && is_middle[element.nodes[0]];
+                                      }),
+                       msh.elements.end());
     keep = is_middle;
     keep.flip();
     for (const MshElement &element : msh.elements)

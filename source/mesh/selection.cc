@@ -84,6 +84,12 @@ namespace Exemplar
       for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
         if (ids[cell] == id)
           nodes.insert(mesh.corners(cell).begin(), mesh.corners(cell).end());
+      const unsigned int type
+          = mesh.is_shell() ? MshElementType::triangle : MshElementType::tetrahedron;
+      if (const MshFile &contents = mesh.get_contents(); !contents.further_groups.empty())
+        for (const MshElement &element : contents.elements)
+          if (element.type == type && is_in_group(contents, element, id))
+            nodes.insert(element.nodes.begin(), element.nodes.end());
       if (nodes.empty())
         throw UserError(fmt::format("{}: region {} has no cells in {} (present: {}). Give a "
                                     "Physical Volume that tag, or change {}.",
@@ -97,8 +103,7 @@ namespace Exemplar
     {
       std::set<unsigned int> nodes;
       for (const MshElement &element : mesh.get_contents().elements)
-        if (element.type == MshElementType::point
-            && std::abs(element.physical) == static_cast<int>(id))
+        if (element.type == MshElementType::point && is_in_group(mesh.get_contents(), element, id))
           nodes.insert(static_cast<unsigned int>(element.nodes[0]));
       if (nodes.empty())
         throw UserError(fmt::format("{}: the set {} has no nodes in {}. Sets are the Physical "
@@ -117,8 +122,10 @@ namespace Exemplar
       std::set<unsigned int> nodes, present;
       for (const BoundaryFace &face : faces)
         nodes.insert(face.nodes.begin(), face.nodes.end());
-      for (const BoundaryFace &face : mesh.get_boundary_faces())
-        present.insert(face.boundary_id);
+      for (const std::vector<BoundaryFace> *const some :
+           { &mesh.get_boundary_faces(), &mesh.get_further_faces() })
+        for (const BoundaryFace &face : *some)
+          present.insert(face.boundary_id);
       if (nodes.empty())
         throw UserError(fmt::format(
             "{}: boundary id {} has no faces in {} (present: {}{}", key, id, mesh.get_name(),
@@ -186,9 +193,11 @@ namespace Exemplar
   {
     const unsigned int        id = id_in(split_selection(text), surface, mesh, key);
     std::vector<BoundaryFace> selected;
-    for (const BoundaryFace &face : mesh.get_boundary_faces())
-      if (face.boundary_id == id)
-        selected.push_back(face);
+    for (const std::vector<BoundaryFace> *const some :
+         { &mesh.get_boundary_faces(), &mesh.get_further_faces() })
+      for (const BoundaryFace &face : *some)
+        if (face.boundary_id == id)
+          selected.push_back(face);
     return selected;
   }
 

@@ -49,7 +49,7 @@ namespace Exemplar
           throw UserError(fmt::format(
               "{}: element {} is a {}, but Mesh/Kind = shell takes 3-node triangles. Mesh the "
               "surface alone (gmsh -2, Mesh.ElementOrder = 1, no Recombine), or set Mesh/Kind = "
-              "solid.",
+              "solid. Sheets and solids in one scene are not supported.",
               name, element.number, kind != nullptr ? kind->name : "element of unknown type"));
       }
       if (mesh.triangles.empty())
@@ -198,6 +198,24 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// The triangles under further physical tags.
+    void
+    add_further_faces(const MshFile &contents, MeshArrays &mesh)
+    {
+      std::size_t t = 0;
+      for (const MshElement &element : contents.elements)
+      {
+        if (element.type != MshElementType::triangle)
+          continue;
+        const auto &nodes = mesh.triangles[t++];
+        for (const int tag : further_groups_of(contents, element))
+          mesh.further_faces.push_back({ nodes, static_cast<unsigned int>(std::abs(tag)) });
+      }
+    }
+  } // namespace
+
   MeshArrays
   check_shell(MshFile contents, const std::string &name, const double scale)
   {
@@ -222,6 +240,7 @@ namespace Exemplar
 
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       mesh.boundary_faces.push_back({ mesh.triangles[t], mesh.material_ids[t] });
+    add_further_faces(contents, mesh);
     mesh.contents = std::move(contents);
     for (const auto &[group, group_name] : std::map(mesh.contents.physical_names))
       if (group.first == 2) // regions of a shell are surfaces

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <set>
 
 namespace Exemplar
 {
@@ -115,6 +116,20 @@ namespace Exemplar
         "material", "material_id", "region", "cell_tags" }
     };
 
+    /// Arrays by which VTK and ParaView number or mark cells, whatever they are made of.
+    const std::array<const char *, 8> names_of_marks{
+      { "vtkGhostType", "vtkGhostLevels", "vtkOriginalCellIds", "vtkCellIds", "GlobalElementId",
+        "GlobalCellIds", "ElementId", "PedigreeElementId" }
+    };
+
+    /// Whether each cell has a number of its own, which then names no region.
+    bool
+    numbers_cells(const VtkArray &array)
+    {
+      const std::set<double> distinct(array.values.begin(), array.values.end());
+      return array.values.size() > 1 && distinct.size() == array.values.size();
+    }
+
     bool
     holds_tags(const VtkArray &array, const std::size_t n_cells)
     {
@@ -156,7 +171,9 @@ namespace Exemplar
                             "cell. Correct it, or give it another name.");
       std::vector<const VtkArray *> possible;
       for (const VtkArray &array : grid.cell_arrays)
-        if (holds_tags(array, grid.types.size()) && array.name != "gmsh:geometrical")
+        if (holds_tags(array, grid.types.size()) && array.name != "gmsh:geometrical"
+            && std::count(names_of_marks.begin(), names_of_marks.end(), array.name) == 0
+            && !numbers_cells(array))
           possible.push_back(&array);
       const VtkArray *chosen = possible.size() == 1 ? possible[0] : nullptr;
       for (auto one = names_of_regions.rbegin(); one != names_of_regions.rend(); ++one)

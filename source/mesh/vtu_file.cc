@@ -183,6 +183,13 @@ namespace Exemplar
         return tag;
       }
 
+      static bool
+      is_section(const std::string &name)
+      {
+        return name == "Points" || name == "Cells" || name == "CellData" || name == "PointData"
+               || name == "FieldData";
+      }
+
       void
       visit(const XmlTag &tag)
       {
@@ -200,7 +207,7 @@ namespace Exemplar
           tag.is_end ? void() : add_array(tag);
         else if (tag.name == "AppendedData" && !tag.is_end)
           skip_appended(tag);
-        else if (!tag.is_single)
+        else if (!tag.is_single && is_section(tag.name)) // ParaView writes others within arrays
           section = tag.is_end ? "" : tag.name;
       }
 

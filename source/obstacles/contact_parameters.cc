@@ -27,8 +27,7 @@ namespace Exemplar
   {
     constexpr double greatest = 1e6;
     if (!(friction >= 0. && friction <= greatest))
-      throw UserError(key + " = " + shortest_text(friction)
-                      + " is not allowed. Allowed: 0 to 1e6.");
+      throw UserError(key + " = " + short_text(friction) + " is not allowed. Allowed: 0 to 1e6.");
   }
 
   double

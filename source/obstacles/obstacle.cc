@@ -43,6 +43,18 @@ namespace Exemplar
                       !surface->times.empty());
     }
 
+    /// Throws UserError for a surface without extent.
+    void
+    refuse_point(const ObstacleShape &shape, const std::string &key)
+    {
+      const bool is_point = std::all_of(shape.vertices.begin(), shape.vertices.end(),
+                                        [](const SpaceVector3 &x) { return x.norm() == 0.; });
+      if (is_point)
+        throw UserError(key
+                        + ": all vertices of the surface are at one point. Look at the file and "
+                          "its unit.");
+    }
+
     /// Throws UserError for triangles that another edge of the surface passes through.
     void
     refuse_crossings(const ObstacleShape &shape, const std::string &key)
@@ -93,6 +105,7 @@ namespace Exemplar
     track.track = surface->track;
     if (!own_shape.is_surface())
       return;
+    refuse_point(own_shape, "Obstacles/" + called + "/Shape");
     refuse_crossings(own_shape, "Obstacles/" + called + "/Shape");
     if (surface->times.empty())
       return;
@@ -116,15 +129,41 @@ namespace Exemplar
   Obstacle::pose(const double time) const
   {
     if (track.track.times.empty())
-      return { rotation_by(turn.vector({}, time)),
-               own_shape.middle + shift + motion.vector({}, time) };
+      return checked({ rotation_by(checked_turn(turn.vector({}, time), time)),
+                       own_shape.middle + shift + motion.vector({}, time) },
+                     time);
     const RigidTrack::Frame    frame = track.track.at(time);
     const SpaceVector3         displacement({ frame[0], frame[1], frame[2] });
     const dealii::Tensor<2, 3> rotation
-        = rotation_by(SpaceVector3({ frame[3], frame[4], frame[5] }));
+        = rotation_by(checked_turn(SpaceVector3({ frame[3], frame[4], frame[5] }), time));
     const SpaceVector3 &middle = own_shape.middle;
-    return { rotation,
-             shift + displacement + (track.track.is_of_space ? rotation * middle : middle) };
+    return checked(
+        { rotation, shift + displacement + (track.track.is_of_space ? rotation * middle : middle) },
+        time);
+  }
+
+  const SpaceVector3 &
+  Obstacle::checked_turn(const SpaceVector3 &rotation_vector, const double time) const
+  {
+    constexpr double greatest = 1e9; // [rad]; doubles hold no more than 7 digits of such an angle
+    if (const double angle = rotation_vector.norm(); !(angle <= greatest))
+      throw SolverFailure(fmt::format(
+          "Obstacles/{} is turned by {:.3g} rad at t = {:.6g} s. Angles up to 1e9 rad are allowed: "
+          "look at its Turn or track, which are in radians.",
+          called, angle, time));
+    return rotation_vector;
+  }
+
+  ObstaclePose
+  Obstacle::checked(const ObstaclePose &pose, const double time) const
+  {
+    constexpr double greatest = 1e50; // [m], as of nodes
+    if (const double distance = pose.place.norm(); !(distance <= greatest))
+      throw SolverFailure(fmt::format(
+          "Obstacles/{} is {:.3g} m from the origin at t = {:.6g} s, which is too far to compute "
+          "with. Look at its Motion or track.",
+          called, distance, time));
+    return pose;
   }
 
   std::vector<SpaceVector3>

@@ -2,6 +2,8 @@
 #include <exemplar/obstacles/box_tree.h>
 #include <exemplar/obstacles/obstacle_picture.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -108,7 +110,20 @@ namespace Exemplar
     bool
     is_square(const ObstacleShape &shape)
     {
-      return !shape.half_spaces.empty() && !shape.bounds;
+      return shape.half_spaces.size() == 1 && shape.vertices.empty();
+    }
+
+    bool
+    is_room(const ObstacleShape &shape)
+    {
+      return shape.bounds && shape.half_spaces.size() == 6 && shape.vertices.empty();
+    }
+
+    bool
+    is_capsule(const ObstacleShape &shape)
+    {
+      const std::size_t n = shape.vertices.size();
+      return (n == 1 || n == 2) && shape.edges.size() == n - 1 && shape.half_spaces.empty();
     }
 
     /// Of the box around nodes; the origin without any [m].
@@ -153,7 +168,7 @@ namespace Exemplar
     }
     else if (shape.half_sizes)
       vertices = box_about(*shape.half_sizes, true, faces);
-    else if (shape.bounds)
+    else if (is_room(shape))
     {
       SpaceVector3 half_sizes;
       for (unsigned int c = 0; c < 3; ++c)
@@ -161,8 +176,14 @@ namespace Exemplar
       vertices = box_about(half_sizes, false, faces);
     }
     else
+    {
+      AssertThrow(is_capsule(shape),
+                  dealii::ExcMessage("Obstacles/" + obstacle.name()
+                                     + " has a shape without a picture. Draw it in "
+                                       "ObstaclePicture::add()."));
       vertices
           = capsule_between(shape.vertices.front(), shape.vertices.back(), shape.radius, faces);
+    }
     mesh.group_names.push_back(obstacle.name());
     const auto first = static_cast<unsigned int>(mesh.vertices.size());
     for (auto &face : faces)

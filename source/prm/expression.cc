@@ -54,18 +54,6 @@ namespace Exemplar
       return with_semicolons(text) != text;
     }
 
-    /// The formulas of a text, which ';' separates, or commas if that makes the wanted number of several.
-    std::vector<std::string>
-    split_formulas(const std::string &text, const unsigned int n_components)
-    {
-      std::vector<std::string> by_semicolons = split_trimmed(text, ';');
-      if (by_semicolons.size() == 1 && n_components > 1)
-        if (std::vector<std::string> by_commas = split_trimmed(with_semicolons(text), ';');
-            by_commas.size() == n_components)
-          return by_commas;
-      return by_semicolons;
-    }
-
     /// Throws UserError for such a comma: muParser would drop the text before it.
     void
     check_no_outer_comma(const std::string &key, const std::string &text)
@@ -150,6 +138,17 @@ namespace Exemplar
       return std::ceil(x);
     }
   } // namespace
+
+  std::vector<std::string>
+  split_formulas(const std::string &text, const unsigned int n_components)
+  {
+    std::vector<std::string> by_semicolons = split_trimmed(text, ';');
+    if (by_semicolons.size() == 1 && n_components > 1)
+      if (std::vector<std::string> by_commas = split_trimmed(with_semicolons(text), ';');
+          by_commas.size() == n_components)
+        return by_commas;
+    return by_semicolons;
+  }
 
   struct Expression::Parsers
   {

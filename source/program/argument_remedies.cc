@@ -36,7 +36,8 @@ namespace Exemplar
       if (command == "study")
         return "exemplar study STUDY.prm";
       if (command == "export")
-        return "exemplar export OUTPUT [OTHER_OUTPUT] --html FILE.html, or exemplar export OUTPUT "
+        return "exemplar export OUTPUT [OTHER_OUTPUT] [--html FILE.html], or exemplar export "
+               "OUTPUT "
                "--gltf FILE.glb";
       if (command == "convert")
         return "exemplar convert IN.inp OUT.msh";
@@ -125,7 +126,6 @@ namespace Exemplar
       { "study", "--set", "Keys of all runs stand in the study: set Base = Section/Key=value." },
       { "study", "--threads", "The study says it: set Threads = 2." },
       { "study", "--resume", "A study goes on by itself: give the same command without it." },
-      { "study", "--validate", "It is checked without the word study: exemplar {} --validate." },
       { "verify", "--output", "It writes nothing but what it prints." },
       { "verify", "--case", "Names of cases stand alone: exemplar verify uniaxial patch." },
       { "mesh", "--scale", "Lengths are changed in the scene, by Mesh/Scale." },

@@ -95,8 +95,9 @@ Exit status:
     {
       app.add_option("SCENE", arguments.run.scene_file, "scene file (.prm)");
       app.add_option("--set", arguments.run.overrides,
-                     "'Section/Key=value' instead of the scene's; repeatable")
-          ->allow_extra_args(false);
+                     "'Section/Key=value' instead of the scene's; once for each key")
+          ->allow_extra_args(false)
+          ->option_text("TEXT");
       app.add_option("--output", arguments.output,
                      "directory of the results instead of Output/Directory");
       app.add_flag("--resume", arguments.run.resume,
@@ -139,6 +140,8 @@ Exit status:
       command.add_option("STUDY", arguments.study.file, "study file (.prm)");
       command.add_option("--output", arguments.study.output, "directory of the results");
       command.add_flag("--quiet", arguments.study.quiet, "print warnings and errors only");
+      command.add_flag("--validate", arguments.validate,
+                       "check the study, its scene and their files, compute nothing");
       command.add_flag("--print-parameters", arguments.print_study,
                        "every key of a study file, its default, range and meaning");
       return command;
@@ -215,7 +218,8 @@ Exit status:
                       "output directory of the run; of two runs: side by side in a page")
           ->required()
           ->expected(1, 2);
-      command.add_option("--html", exported.html, "the page to write");
+      command.add_option("--html", exported.html,
+                         "the page to write; without it and --gltf a page beside the first run");
       command.add_option("--gltf", exported.gltf,
                          "the file to write (.glb): morph targets with keyed weights");
       add_number_option(command, "--shapes", exported.n_shapes, 0U, 1000U,
@@ -274,6 +278,8 @@ Exit status:
     void
     do_study(const Arguments &arguments)
     {
+      if (arguments.validate)
+        return validate_study(arguments.study.file);
       if (!arguments.print_study)
         return make_study(arguments.study);
       print_study_parameters();
@@ -345,8 +351,6 @@ Exit status:
         for (const std::string option : { "--cells", "--output" })
           if (mesh_command.count(option) == 0)
             throw CLI::RequiredError(option);
-      if (export_command && export_command.count("--html") + export_command.count("--gltf") == 0)
-        throw CLI::RequiredError("--html or --gltf");
       if (study_command && !arguments.print_study && arguments.study.file.empty())
         throw CLI::RequiredError("STUDY");
     }

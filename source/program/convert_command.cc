@@ -3,6 +3,7 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/missing_file.h>
 #include <exemplar/base/standard_streams.h>
+#include <exemplar/base/words.h>
 #include <exemplar/mesh/mesh.h>
 #include <exemplar/mesh/mesh_file.h>
 #include <exemplar/program/commands.h>
@@ -42,8 +43,9 @@ namespace Exemplar
     for (const std::string &one : { msh.note, note })
       if (!one.empty())
         std::cout << message_text(one) << '\n';
-    std::cout << msh.nodes.size() << " nodes and " << msh.elements.size()
-              << " elements, written to " << message_text(options.output.string()) << '\n';
+    std::cout << counted(msh.nodes.size(), "node") << " and "
+              << counted(msh.elements.size(), "element") << ", written to "
+              << message_text(options.output.string()) << '\n';
     require_printed();
   }
 } // namespace Exemplar

@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/standard_streams.h>
+#include <exemplar/base/words.h>
 #include <exemplar/live/export_gltf.h>
 #include <exemplar/live/export_page.h>
 #include <exemplar/program/commands.h>
@@ -14,13 +15,38 @@ namespace Exemplar
 {
   namespace
   {
-    void
-    write_page(const ExportOptions &options)
+    /// The name of a run's directory.
+    std::string
+    name_of_run(const std::string &run)
     {
+      return std::filesystem::absolute(run + "/")
+          .lexically_normal()
+          .parent_path()
+          .filename()
+          .string();
+    }
+
+    /// Beside the first run, with the names of all: RUN.html, or RUN_OTHER.html.
+    std::string
+    page_beside(const std::vector<std::string> &runs)
+    {
+      std::string name;
+      for (const std::string &run : runs)
+        name += (name.empty() ? "" : "_") + name_of_run(run);
+      const std::filesystem::path first
+          = std::filesystem::path(runs.front() + "/").lexically_normal().parent_path();
+      return (first.parent_path() / (name + ".html")).string();
+    }
+
+    void
+    write_page(ExportOptions options)
+    {
+      if (options.html.empty())
+        options.html = page_beside(options.runs);
       const Live::RunPage page = Live::export_page(options.runs, options.html);
-      std::cout << fmt::format(
-          "{}: {} frames, {:.1f} MB; coordinates are rounded by {:.1e} m at most", options.html,
-          page.n_frames, 1e-6 * page.html.size(), page.error)
+      std::cout << fmt::format("{}: {}, {:.1f} MB; coordinates are rounded by {:.1e} m at most",
+                               options.html, counted(page.n_frames, "frame"),
+                               1e-6 * page.html.size(), page.error)
                 << std::endl;
     }
 
@@ -31,11 +57,12 @@ namespace Exemplar
         throw UserError("--gltf takes one run: call it for each.");
       const Live::GltfReport report = Live::export_gltf(
           { options.runs.front(), options.gltf, options.n_shapes, options.with_normals });
-      std::cout << fmt::format("{}: {} frames of {} vertices, {} examples and {} shapes, {:.1f} "
+      std::cout << fmt::format("{}: {} of {} vertices, {} and {}, {:.1f} "
                                "MB; vertices are off by {:.3e} m at most, {:.3f} % of the diagonal",
-                               options.gltf, report.n_frames, report.n_vertices, report.n_examples,
-                               report.n_shapes, 1e-6 * report.n_bytes, report.error,
-                               100. * report.relative_error)
+                               options.gltf, counted(report.n_frames, "frame"), report.n_vertices,
+                               counted(report.n_examples, "example"),
+                               counted(report.n_shapes, "shape"), 1e-6 * report.n_bytes,
+                               report.error, 100. * report.relative_error)
                 << std::endl;
       for (const std::string &warning : report.warnings)
         std::cerr << "Warning: " << message_text(warning) << std::endl;

@@ -2,6 +2,7 @@
 #include <exemplar/base/environment.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/version.h>
+#include <exemplar/base/words.h>
 #include <exemplar/program/joint_run.h>
 #include <exemplar/program/run_log.h>
 #include <exemplar/run/output/run_directory.h>
@@ -40,12 +41,17 @@ namespace Exemplar
     mesh_text(const Problem &problem)
     {
       const Exchange    &exchange = problem.body.exchange();
-      const auto         n_nodes  = exchange.n_nodes(problem.body.fe_space.n_nodes());
+      const FESpace     &fe_space = problem.body.fe_space;
+      const auto         n_nodes  = exchange.n_nodes(fe_space.n_nodes());
       const auto         n_free   = exchange.sum(problem.constraints.free_dofs.size());
+      const unsigned int n_slopes = fe_space.is_shell() ? fe_space.shell().n_slopes() : 0;
       std::ostringstream text;
       text << "Mesh      " << printable(problem.body.mesh.get_name()) << ": "
            << problem.body.mesh.whole().n_cells << ' '
-           << traits_of(problem.parameters.model.element).cells << ", " << n_nodes << " nodes, "
+           << (fe_space.is_shell() ? "triangles"
+                                   : traits_of(problem.parameters.model.element).cells)
+           << ", " << n_nodes - n_slopes << " nodes"
+           << (n_slopes > 0 ? fmt::format(" and {} slopes of edges", n_slopes) : "") << ", "
            << static_cast<unsigned int>(n_free) << " of " << 3 * n_nodes << " dofs free\n";
       return text.str();
     }
@@ -78,15 +84,27 @@ namespace Exemplar
       return minimum == maximum ? minimum : minimum + " to " + maximum;
     }
 
+    /// The thickness of a shell, with a comma behind it; empty for others.
+    std::string
+    thickness_text(const Body &body)
+    {
+      if (!body.fe_space.is_shell())
+        return "";
+      Range thickness;
+      for (const ShellTriangle &triangle : body.fe_space.shell().triangles())
+        thickness.add(triangle.thickness);
+      return range_text(thickness) + " m thick, ";
+    }
+
     /// Measures of the body that reveal a wrong unit.
     std::string
     body_text(const Problem &problem)
     {
       const BodyMeasures measures = measure(problem.body);
       std::string text = "Body      " + plain(measures.size[0]) + " x " + plain(measures.size[1])
-                         + " x " + plain(measures.size[2]) + " m, " + plain(measures.mass)
-                         + " kg; E " + range_text(measures.young) + " Pa, nu "
-                         + range_text(measures.poisson);
+                         + " x " + plain(measures.size[2]) + " m, " + thickness_text(problem.body)
+                         + plain(measures.mass) + " kg; E " + range_text(measures.young)
+                         + " Pa, nu " + range_text(measures.poisson);
       const Loads *loads = problem.actions.loads.get();
       if (loads != nullptr && loads->has_gravity())
       {
@@ -118,12 +136,12 @@ namespace Exemplar
       const unsigned int      n_processes = problem.body.exchange().n_processes();
       std::ostringstream      text;
       text << "Solver    " << method_name(solver.method) << ", "
-           << problem.system.bordered().traits().name << ", " << problem.time_axis.n_steps()
-           << " steps; ";
+           << problem.system.bordered().traits().name << ", "
+           << counted(problem.time_axis.n_steps(), "step") << "; ";
       if (n_processes > 1)
         text << n_processes << " processes of ";
-      text << solver.n_threads << (solver.n_threads == 1 ? " thread" : " threads") << "; BLAS "
-           << blas.library << ' ' << blas.core << '\n';
+      text << counted(solver.n_threads, "thread") << "; BLAS " << blas.library << ' ' << blas.core
+           << '\n';
       return text.str();
     }
 
@@ -166,7 +184,8 @@ namespace Exemplar
              << std::setprecision(1) << 100. * seconds[phase] / total << " %\n";
       text << "  " << std::left << std::setw(12) << "total" << std::right << std::setw(9)
            << std::setprecision(3) << total << " s\n"
-           << totals.iterations << " iterations, " << totals.factorizations << " factorisations\n";
+           << counted(totals.iterations, "iteration") << ", "
+           << counted(totals.factorizations, "factorisation") << '\n';
       return text.str();
     }
 
@@ -295,8 +314,8 @@ namespace Exemplar
   progress_text(const SolveReport &report)
   {
     std::ostringstream text;
-    text << report.iterations << (report.iterations == 1 ? " iteration" : " iterations")
-         << ", residual " << std::setprecision(2) << report.residual;
+    text << counted(report.iterations, "iteration") << ", residual " << std::setprecision(2)
+         << report.residual;
     return text.str();
   }
 

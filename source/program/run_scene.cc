@@ -4,6 +4,7 @@
 #include <exemplar/base/launcher.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/progress.h>
+#include <exemplar/base/words.h>
 #include <exemplar/program/commands.h>
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/joint_run.h>
@@ -184,12 +185,14 @@ namespace Exemplar
     std::ostream &out = JointRun::group().of_root(std::cout);
     Progress progress(out, is_terminal(), options.quiet || options.verbose, problem->state.step,
                       problem->time_axis.n_steps());
+    problem->solver->may_go_on
+        = [&problem] { return !problem->body.exchange().any(is_interrupted()); };
     problem->solver->observe = [&](const SolveReport &report)
     {
       progress.go_on(progress_text(report));
       if (options.verbose)
         out << iteration_text(*problem, report) << std::flush;
-      return !problem->body.exchange().any(is_interrupted());
+      return problem->solver->may_go_on();
     };
     StateReview review(*problem);
     try
@@ -211,8 +214,9 @@ namespace Exemplar
     const auto      problem = make_problem_and_warn(scene.get_parameters(), options, log);
     const RunWriter writer(*problem, scene); // may throw if frames cannot show the surface
     std::cout << printable(options.scene_file.string()) << ": valid; "
-              << problem->body.mesh.n_cells() << " cells, " << problem->body.mesh.n_nodes()
-              << " nodes, " << problem->time_axis.n_steps() << " steps" << std::endl;
+              << counted(problem->body.mesh.n_cells(), "cell") << ", "
+              << counted(problem->body.mesh.n_nodes(), "node") << ", "
+              << counted(problem->time_axis.n_steps(), "step") << std::endl;
   }
 
   void

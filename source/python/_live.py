@@ -71,6 +71,8 @@ class Live:
 
 def checked(port: object, record: Record) -> list[str]:
     """The arguments of the program."""
+    if record is not None and not isinstance(record, (str, os.PathLike)):
+        raise UserError(f"live(): record is {record!r}. Allowed: the path of a directory, or None.")
     if isinstance(port, bool) or not isinstance(port, int) or not 0 <= port <= 65535:
         raise UserError(f"live(): port is {port!r}. Allowed: whole numbers from 0, one that is free, to 65535.")
     return ["--port", str(port), *(["--record", os.fspath(record)] if record is not None else [])]

@@ -31,7 +31,7 @@ def real_numbers(values, what, allowed):
 
 
 def values_of_faces(problem, values, triangles, cells):
-    """One number a triangle (k,), and what they are called."""
+    """One number per triangle (k,), and the label of the displacements; that of other values is not known."""
     n, m = len(problem.positions), len(problem.cells)
     if values is None:
         return displacements_of_faces(problem, problem.positions, triangles), "displacement [m]"
@@ -87,9 +87,11 @@ def scale_of(numbers):
 def set_box(axes, points):
     """Axes around all points, of one scale."""
     low, high = points.min(axis=0), points.max(axis=0)
-    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]), xlabel="x", ylabel="y", zlabel="z")
-    axes.locator_params(nbins=4)
-    axes.set_box_aspect(np.maximum(high - low, 1e-3 * (high - low).max()))
+    size = np.maximum(high - low, 1e-3 * (high - low).max())
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]), xlabel="x [m]", ylabel="y [m]", zlabel="z [m]")
+    for name, part in zip("xyz", size / size.max()):  # ticks of short axes would overlap
+        axes.locator_params(axis=name, nbins=max(1, round(4 * part)))
+    axes.set_box_aspect(size)
 
 
 def draw(axes, corners, numbers, scale, label):
@@ -102,9 +104,12 @@ def draw(axes, corners, numbers, scale, label):
     return drawn
 
 
-def plot(problem, values, axes):
+def plot(problem, values, axes, label):
+    if label is not None and not isinstance(label, str):
+        raise UserError(f"plot: label is {label!r}. Allowed: a text such as \"stress [Pa]\", or None.")
     triangles, cells = surface(problem.cells)
-    numbers, label = values_of_faces(problem, values, triangles, cells)
+    numbers, usual = values_of_faces(problem, values, triangles, cells)
+    label = usual if label is None else label
     axes = axes_of_space(axes, "plot")
     draw(axes, problem.positions[triangles], numbers, scale_of(numbers), label)
     set_box(axes, problem.positions)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/words.h>
 #include <exemplar/python/arrays_to_python.h>
 #include <exemplar/python/module_parts.h>
 
@@ -157,12 +158,15 @@ namespace Exemplar::Python
     {
       if (held.is_of_another_thread())
         return "<exemplar.Problem: another thread makes a step>";
-      const Problem &problem = held.get();
-      return fmt::format("<exemplar.Problem: {} ({}), {} nodes, {} cells, step {} of {}, time "
-                         "{:.6g}>",
+      const Problem     &problem = held.get();
+      const unsigned int step = problem.state.step, n_steps = problem.time_axis.n_steps();
+      return fmt::format("<exemplar.Problem: {} ({}), {}, {}, step {}{}, time {:.6g}>",
                          problem.parameters.name, name_of(problem.parameters.scene),
-                         problem.body.mesh.n_nodes(), problem.body.mesh.n_cells(),
-                         problem.state.step, problem.time_axis.n_steps(), problem.state.time);
+                         counted(problem.body.mesh.n_nodes(), "node"),
+                         counted(problem.body.mesh.n_cells(), "cell"), step,
+                         step > n_steps ? fmt::format(", {} beyond the scene's end", step - n_steps)
+                                        : fmt::format(" of {}", n_steps),
+                         problem.state.time);
     }
   } // namespace
 

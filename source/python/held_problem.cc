@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/mpi_session.h>
+#include <exemplar/base/words.h>
 #include <exemplar/python/arrays_from_python.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/held_problem.h>
@@ -35,10 +36,10 @@ namespace Exemplar::Python
       const py::object logging = modules["logging"];
       const py::object logger  = logging.attr("getLogger")("exemplar");
       if (logger.attr("isEnabledFor")(logging.attr("INFO")).cast<bool>())
-        logger.attr("info")(
-            fmt::format("step {} of {}, t = {:g}: {}, {} iterations, residual {:.2g}",
-                        problem.state.step, problem.time_axis.n_steps(), problem.state.time,
-                        status_name(report.status), report.iterations, report.residual));
+        logger.attr("info")(fmt::format(
+            "step {} of {}, t = {:g}: {}, {}, residual {:.2g}", problem.state.step,
+            std::max(problem.state.step, problem.time_axis.n_steps()), problem.state.time,
+            status_name(report.status), counted(report.iterations, "iteration"), report.residual));
     }
 
     std::unique_ptr<Problem>
@@ -111,6 +112,19 @@ namespace Exemplar::Python
     };
   } // namespace
 
+  namespace
+  {
+    /// Throws KeyboardInterrupt after Ctrl-C.
+    void
+    check_signals()
+    {
+      const py::gil_scoped_acquire lock;
+      if (PyErr_CheckSignals() != 0)
+        throw py::error_already_set();
+      UnlockedWork::check();
+    }
+  } // namespace
+
   HeldProblem::HeldProblem(const py::object &scene, const py::object &mesh, const py::object &poses)
       : HeldProblem(from_python(scene, mesh, poses))
   {
@@ -122,6 +136,11 @@ namespace Exemplar::Python
         initial(save_state(*problem, {})), review(*problem)
   {
     problem->solver->observe = [this](const SolveReport &iteration) { return observe(iteration); };
+    problem->solver->may_go_on = []
+    {
+      check_signals();
+      return true;
+    };
     require_functional(*problem);
     warn(problem->warnings());
     warn(unit_warnings(*problem));
@@ -159,9 +178,7 @@ namespace Exemplar::Python
   HeldProblem::observe(const SolveReport &iteration)
   {
     const py::gil_scoped_acquire lock;
-    if (PyErr_CheckSignals() != 0)
-      throw py::error_already_set(); // Ctrl-C
-    UnlockedWork::check();
+    check_signals();
     if (functions.callback.is_none())
       return true;
     const py::object function = functions.callback; // a copy, as the call may replace it

@@ -3,6 +3,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/base/version.h>
+#include <exemplar/base/words.h>
 #include <exemplar/python/evaluation.h>
 #include <exemplar/python/from_python.h>
 #include <exemplar/python/module_parts.h>
@@ -68,6 +69,7 @@ namespace Exemplar::Python
     {
       py::class_<SolveReport> type(module, "Report", "How a step was solved, or how far it is.");
       refuse_pickling(type, "Keep its numbers.");
+      suggest_attributes(type);
       type.def_property_readonly(
               "status", [](const SolveReport &report) { return status_name(report.status); },
               "'converged' or 'one pass'; 'initial' before it ends.")
@@ -86,8 +88,9 @@ namespace Exemplar::Python
           .def("__repr__",
                [](const SolveReport &report)
                {
-                 return py::str("<exemplar.Report: {}, {} iterations, residual {:.2g}>")
-                     .format(status_name(report.status), report.iterations, report.residual);
+                 return py::str("<exemplar.Report: {}, {}, residual {:.2g}>")
+                     .format(status_name(report.status), counted(report.iterations, "iteration"),
+                             report.residual);
                });
     }
 
@@ -140,8 +143,8 @@ namespace Exemplar::Python
           "on_iteration", &HeldProblem::on_iteration, py::arg("function"),
           "on_iteration(function)\n\n"
           "Call function(report) after each iteration of a step; None: call nothing.\n\n"
-          "If it returns False, the step is left and Interrupted raised; methods that cannot\n"
-          "stop within a step finish it before. Raises TypeError for what is no function.");
+          "If it returns False, the step is abandoned and Interrupted raised, unless the step\n"
+          "ends with this iteration. Raises TypeError if `function` cannot be called.");
       refuse_other_arguments(problem, "run",
                              "run() takes no argument: it makes all steps that are left. Some of "
                              "them: for _ in range(5): problem.step().");
@@ -289,6 +292,7 @@ namespace Exemplar::Python
       add_plot(problem);
       add_live(problem);
       refuse_pickling(problem, "Pickle its state, problem.state, and make the problem anew.");
+      suggest_attributes(problem);
     }
   } // namespace
 } // namespace Exemplar::Python

@@ -8,9 +8,12 @@ namespace Exemplar::Python
   namespace
   {
     py::object
-    plot(const py::object &self, const py::object &values, const py::object &axes)
+    plot(const py::object &self,
+         const py::object &values,
+         const py::object &axes,
+         const py::object &label)
     {
-      return py::module_::import("exemplar._plot").attr("plot")(self, values, axes);
+      return py::module_::import("exemplar._plot").attr("plot")(self, values, axes, label);
     }
 
     /// Positions of the nodes now and after each step that is left.
@@ -40,12 +43,15 @@ namespace Exemplar::Python
   {
     problem.def(
         "plot", &plot, py::arg("values") = py::none(), py::arg("axes") = py::none(),
-        "plot(values=None, axes=None) -> mpl_toolkits.mplot3d.axes3d.Axes3D\n\n"
+        py::arg("label") = py::none(),
+        "plot(values=None, axes=None, label=None) -> mpl_toolkits.mplot3d.axes3d.Axes3D\n\n"
         "Draw the body's surface where it stands, by matplotlib, and return the axes.\n\n"
         "values: one number a node (n,) or a cell (m,) that colours it, from the least to the\n"
         "greatest; None: the displacements' lengths [m]. axes: of matplotlib, with "
         "projection='3d';\n"
-        "None: those of a new figure. Raises UserError for values of another shape, numbers that\n"
+        "None: those of a new figure. label: of the colour bar, with the unit, such as\n"
+        "\"stress [Pa]\"; None: that of the displacements, or none. Raises UserError for values of "
+        "another shape, numbers that\n"
         "are not finite, or axes that are flat, ImportError without matplotlib, and RuntimeError\n"
         "while another thread makes a step.");
     problem.def(
@@ -59,7 +65,8 @@ namespace Exemplar::Python
         "interval: between frames [ms]. axes: as of plot(). The colours are the displacements'\n"
         "lengths [m]. Keep what it returns as long as it is shown. Raises what plot() and run()\n"
         "raise, and UserError for other shapes and for less than two frames.");
-    refuse_other_arguments(problem, "plot", "plot is called as plot(values=None, axes=None).");
+    refuse_other_arguments(problem, "plot",
+                           "plot is called as plot(values=None, axes=None, label=None).");
     refuse_other_arguments(problem, "animate",
                            "animate is called as animate(positions=None, interval=50, axes=None).");
   }

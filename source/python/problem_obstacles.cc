@@ -53,7 +53,7 @@ namespace Exemplar::Python
     contact_forces(const HeldProblem &held)
     {
       const Problem      &problem = held.get();
-      const py::ssize_t   n = problem.body.fe_space.numbering().n_places(); // without slopes
+      const py::ssize_t   n       = problem.body.fe_space.numbering().n_places(); // without slopes
       py::array_t<double> forces({ n, py::ssize_t(3) });
       const Vector        values = Exemplar::contact_forces(problem);
       std::copy_n(values.begin(), forces.size(), forces.mutable_data());
@@ -91,14 +91,14 @@ namespace Exemplar::Python
                  const py::object  &shape,
                  const std::string &motion,
                  const std::string &turn,
-                 const double       friction)
+                 const py::object  &friction)
     {
       ObstacleParameters added;
       ObstacleSurface    surface;
       added.name     = name;
       added.motion   = motion;
       added.turn     = turn;
-      added.friction = friction;
+      added.friction = real_number_of(friction, "add_obstacle: friction");
       if (py::isinstance<py::str>(shape))
         added.shape = shape.cast<std::string>();
       else if (py::isinstance<py::tuple>(shape))

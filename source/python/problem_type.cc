@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/nearest_word.h>
 #include <exemplar/python/problem_type.h>
 
 #include <map>
+#include <vector>
 
 namespace Exemplar::Python
 {
@@ -47,6 +49,19 @@ namespace Exemplar::Python
       }
     }
 
+    /// The message on an attribute that the type does not have, with the nearest one.
+    std::string
+    without_attribute(const py::handle &type, const std::string &name)
+    {
+      std::vector<std::string> names;
+      for (const py::handle one : py::module_::import("builtins").attr("dir")(type))
+        if (std::string of_type = py::str(one); of_type[0] != '_')
+          names.push_back(std::move(of_type));
+      const std::string nearest = nearest_word(name, names);
+      return "exemplar." + std::string(py::str(type.attr("__name__"))) + " has no attribute '"
+             + name + "'." + (nearest.empty() ? "" : " Did you mean '" + nearest + "'?");
+    }
+
     /// __setattr__ as Python's own, but setting a method raises an error that tells to call it.
     void
     set_attribute(const py::object &problem, const py::str &name, const py::object &value)
@@ -76,9 +91,20 @@ namespace Exemplar::Python
       if (error.matches(PyExc_AttributeError) && PyCallable_Check(attribute.ptr()) != 0)
         throw py::attribute_error(std::string(name) + " is called, not set: problem."
                                   + std::string(name) + "(...).");
+      if (error.matches(PyExc_AttributeError) && !py::hasattr(py::type::of(problem), name))
+        throw py::attribute_error(without_attribute(py::type::of(problem), name));
       throw error;
     }
   } // namespace
+
+  void
+  suggest_attributes(const py::object &type)
+  {
+    type.attr("__getattr__") = py::cpp_function(
+        [](const py::object &self, const std::string &name) -> py::object
+        { throw py::attribute_error(without_attribute(py::type::of(self), name)); },
+        py::name("__getattr__"), py::is_method(type));
+  }
 
   void
   refuse_pickling(const py::object &type, const std::string &remedy)

@@ -301,6 +301,7 @@ namespace Exemplar::Python
                });
       type.def("__exit__", [](Trajectory &trajectory, const py::args &) { end(trajectory); });
       refuse_pickling(type, "Keep its lists: times, positions, velocities, weights.");
+      suggest_attributes(type);
       add_states(type);
       type.def(
           "vjp", &vjp_of_steps, py::arg("dJ_dx"), py::arg("dJ_dw") = py::none(),

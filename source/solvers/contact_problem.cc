@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/long_vectors.h>
+#include <exemplar/base/errors.h>
 #include <exemplar/solvers/contact_problem.h>
 
 #include <algorithm>
@@ -18,13 +19,22 @@ namespace Exemplar
     }
 
     /// Overwrite b by the solution of A x = b for a positive definite matrix, of which the lower triangle counts and which is
-    /// overwritten, too. There are hundreds of rows: BLAS is worth its while.
+    /// overwritten, too. There are hundreds of rows: BLAS is worth its while. Throws SolverFailure where rounding makes A
+    /// indefinite.
     void
     solve_by_blocks(dealii::LAPACKFullMatrix<double> &A, std::vector<double> &b)
     {
       dealii::Vector<double> solution(b.begin(), b.end());
       A.set_property(dealii::LAPACKSupport::symmetric);
-      A.compute_cholesky_factorization();
+      try
+      {
+        A.compute_cholesky_factorization();
+      }
+      catch (const dealii::ExceptionBase &) // whose text is for programmers
+      {
+        throw SolverFailure("Forces of contacts are too large to compute with. Look at velocities, "
+                            "loads and the units of lengths, or take smaller steps.");
+      }
       A.solve(solution);
       std::copy(solution.begin(), solution.end(), b.begin());
     }

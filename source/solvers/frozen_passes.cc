@@ -80,7 +80,7 @@ namespace Exemplar
       report.status = SolveStatus::converged;
     else if (report.iterations == parameters.maximum_iterations)
       report.status = SolveStatus::iteration_limit;
-    else if (!goes_on && !has_predicted_rotations()) // a prediction has changed its memory by now
+    else if (!goes_on)
       throw Interrupted("Interrupted.");
   }
 
@@ -113,6 +113,12 @@ namespace Exemplar
     {
       report.status  = SolveStatus::failed;
       report.failure = failure.what();
+    }
+    catch (const Interrupted &)
+    {
+      if (has_predicted_rotations())
+        prediction.take_back();
+      throw;
     }
     if (is_success(report.status))
       state = std::move(trial);

@@ -33,7 +33,7 @@ namespace Exemplar
                  const Handles          &handles,
                  StepClock              &clock)
       : parameters(parameters), potential(potential), system(system), handles(handles),
-        clock(clock), motion(potential, handles)
+        clock(clock), motion(potential, handles, may_go_on)
   {
   }
 

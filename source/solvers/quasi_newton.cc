@@ -3,10 +3,6 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/solvers/quasi_newton.h>
 
-#include <boost/serialization/deque.hpp>
-#include <boost/serialization/vector.hpp>
-#include <deal.II/base/memory_consumption.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -53,9 +49,11 @@ namespace Exemplar
       : parameters(parameters), potential(potential), system(system), clock(clock),
         newton(parameters, potential, system, handles, clock),
         prediction(potential.get_free_dofs(), handles, parameters.prediction_order),
-        motion(potential, handles), metric(potential.get_free_dofs()),
+        motion(potential, handles, may_go_on), metric(potential.get_free_dofs()),
         lbfgs(potential.get_free_dofs().exchange()), contact(potential, metric, lbfgs)
   {
+    newton.observe   = [this](const SolveReport &so_far) { return !observe || observe(so_far); };
+    newton.may_go_on = [this] { return !may_go_on || may_go_on(); };
   }
 
   SolveReport
@@ -63,6 +61,24 @@ namespace Exemplar
                      Evaluation  &evaluation,
                      const double time,
                      const double step_size)
+  {
+    keep();
+    try
+    {
+      return solve_or_hand_over(state, evaluation, time, step_size);
+    }
+    catch (const Interrupted &)
+    {
+      go_back();
+      throw;
+    }
+  }
+
+  SolveReport
+  QuasiNewton::solve_or_hand_over(State       &state,
+                                  Evaluation  &evaluation,
+                                  const double time,
+                                  const double step_size)
   {
     SolveReport report;
     potential.begin_step(state, step_size);
@@ -73,8 +89,7 @@ namespace Exemplar
     try
     {
       predict(state, step_size, trial, evaluation);
-      // within a step its memory is that of half a step, so nobody may stop it here
-      report_iteration(potential, evaluation, trial, report);
+      report_or_stop(trial, evaluation, report);
       find_metric(state, step_size, trial);
       iterate(state, step_size, trial, evaluation, report);
     }
@@ -88,17 +103,18 @@ namespace Exemplar
       std::swap(state, trial);
       return report;
     }
-    history.positions.reinit(0);
+    history.made.reset();
     next = {};
     metric.clear();
-    newton.observe = [this](const SolveReport &so_far)
-    {
-      if (observe)
-        observe(so_far);
-      return true; // nobody may stop it: this method's memory is that of half a step
-    };
     newton.take_over(state, evaluation, time, report);
     return report;
+  }
+
+  void
+  QuasiNewton::report_or_stop(State &trial, const Evaluation &evaluation, SolveReport &report) const
+  {
+    if (!report_iteration(potential, evaluation, trial, report))
+      throw Interrupted("Interrupted.");
   }
 
   void
@@ -131,7 +147,7 @@ namespace Exemplar
   QuasiNewton::begin_with_metric(const State &start, const double step_size)
   {
     potential.get_body().update_rotations(start.positions);
-    if (metric.empty() || history.mass_factor != potential.mass_factor())
+    if (metric.empty() || history.mass_factor() != potential.mass_factor())
       renew_metric(start, step_size, start);
     potential.get_body().node_rotations(node_rotations);
     metric.rotate(node_rotations);
@@ -161,26 +177,19 @@ namespace Exemplar
   QuasiNewton::MetricHistory
   QuasiNewton::new_history(const State &start, const double step_size, const State &trial) const
   {
-    return { trial.positions,
-             trial.weights,
-             potential.get_tangent().couplings_of_terms(),
-             potential.changes_between_steps() ? start : State(),
-             trial.time,
-             step_size,
-             potential.mass_factor(),
-             0,
-             0,
-             0,
-             0,
-             0,
-             false };
+    MetricHistory result;
+    result.made = std::make_shared<const MetricOrigin>(
+        MetricOrigin{ trial.positions, trial.weights, potential.get_tangent().couplings_of_terms(),
+                      potential.changes_between_steps() ? start : State(), trial.time, step_size,
+                      potential.mass_factor() });
+    return result;
   }
 
   bool
   QuasiNewton::has_other_couplings() const
   {
     return potential.get_free_dofs().exchange().any(
-        history.couplings != potential.get_tangent().couplings_of_terms());
+        history.made->couplings != potential.get_tangent().couplings_of_terms());
   }
 
   unsigned int
@@ -234,11 +243,11 @@ namespace Exemplar
   void
   QuasiNewton::find_metric(const State &start, const double step_size, const State &trial)
   {
-    if (next.mass_factor != potential.mass_factor())
+    if (next.mass_factor() != potential.mass_factor())
       next = {};
     // where Newton's method has taken over, there is no metric, but steps since it was made
-    const bool has_metric = history.positions.size() > 0
-                            && history.mass_factor == potential.mass_factor()
+    const bool has_metric = history.made != nullptr
+                            && history.mass_factor() == potential.mass_factor()
                             && !has_other_couplings();
     if (has_metric && is_next_due())
       take_next_metric();
@@ -449,7 +458,7 @@ namespace Exemplar
                           is_solved || (iteration.is_nearly_there && n_changes < n_early_changes))
           != TermChange::none)
       {
-        report_iteration(potential, evaluation, trial, report);
+        report_or_stop(trial, evaluation, report);
         measure(trial, evaluation, iteration);
         if (++n_changes > max_changes)
           return;
@@ -492,70 +501,13 @@ namespace Exemplar
       const double ratio    = norm(iteration.gradient) / old_norm;
       learn(trial, memory.old_contact, memory.old_weights, old_gradient, report.step_length,
             iteration);
-      report_iteration(potential, evaluation, trial, report);
-      is_near = has_arrived(accepted, trial, report, ratio, iteration);
+      const bool goes_on = report_iteration(potential, evaluation, trial, report);
+      is_near            = has_arrived(accepted, trial, report, ratio, iteration);
+      if (!goes_on && !is_near && !has_met(parameters.tolerance, report))
+        throw Interrupted("Interrupted.");
       if (!is_near && should_have_another(report.residual, ratio))
         n_with_metric = std::max(max_iterations, max_contact_iterations);
     }
     report.status = SolveStatus::converged;
-  }
-
-  // What the quasi-Newton method remembers from step to step, for checkpoints.
-
-  void
-  QuasiNewton::forget()
-  {
-    newton.forget();
-    prediction.forget();
-    lbfgs.clear();
-    metric.clear();
-    history = {};
-    next    = {};
-  }
-
-  void
-  QuasiNewton::save(boost::archive::binary_oarchive &archive) const
-  {
-    const FreeDofs &free_dofs  = potential.get_free_dofs();
-    MetricHistory   of_body    = history;
-    Lbfgs           body_lbfgs = lbfgs;
-    of_body.positions          = whole(free_dofs.exchange(), history.positions);
-    for (Vector *field : of_body.start.nodal_fields())
-      *field = whole(free_dofs.exchange(), *field);
-    of_body.start.history = potential.get_body().history_order().whole(history.start.history);
-    body_lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.whole(vector); });
-    archive &of_body &next &body_lbfgs; // several processes have no next one
-    prediction.save(archive);
-  }
-
-  void
-  QuasiNewton::load(boost::archive::binary_iarchive &archive)
-  {
-    const FreeDofs         &free_dofs = potential.get_free_dofs();
-    archive &history &next &lbfgs;
-    history.positions = part(free_dofs.exchange(), history.positions);
-    for (Vector *field : history.start.nodal_fields())
-      *field = part(free_dofs.exchange(), *field);
-    history.start.history = potential.get_body().history_order().part(history.start.history);
-    lbfgs.map([&](const std::vector<double> &vector) { return free_dofs.part(vector); });
-    prediction.load(archive);
-    metric.clear();
-  }
-
-  std::size_t
-  QuasiNewton::memory_consumption() const
-  {
-    if (metric.empty())
-      return 0;
-    using dealii::MemoryConsumption::memory_consumption;
-    const Iteration &iteration = memory.iteration;
-    return metric.memory_consumption() + contact.memory_consumption()
-           + history.positions.memory_consumption() + lbfgs.memory_consumption()
-           + prediction.memory_consumption() + memory_consumption(node_rotations)
-           + memory_consumption(memory.node_rotations) + memory_consumption(iteration.gradient)
-           + memory_consumption(iteration.direct) + memory_consumption(iteration.rotated)
-           + memory_consumption(memory.old_gradient) + memory.displacement.memory_consumption()
-           + memory.trial.positions.memory_consumption()
-           + memory.trial.velocities.memory_consumption();
   }
 } // namespace Exemplar

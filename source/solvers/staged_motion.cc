@@ -75,6 +75,13 @@ namespace Exemplar
     }
   } // namespace
 
+  void
+  StagedMotion::stop_if_interrupted() const
+  {
+    if (may_go_on && !may_go_on())
+      throw Interrupted("Interrupted.");
+  }
+
   bool
   StagedMotion::moves_held(const Vector &from, const Vector &to) const
   {
@@ -154,6 +161,7 @@ namespace Exemplar
     double       now    = start_time;
     for (unsigned int stage = 1; stage <= max_stages; ++stage)
     {
+      stop_if_interrupted();
       to = target;
       potential.move_to(now);
       carry(now, at, time, to, follow);
@@ -339,6 +347,11 @@ namespace Exemplar
     const Exchange  &exchange  = free_dofs.exchange();
     const Vector     predicted = to;
     std::vector<Gap> carried;
+    const Follow     follow_or_stop = [&](std::vector<double> &forces)
+    {
+      stop_if_interrupted();
+      follow(forces);
+    };
     for (unsigned int i = 0; i < max_carries; ++i)
     {
       // those that were carried are in the middle of their widths by now
@@ -355,7 +368,7 @@ namespace Exemplar
       if (!exchange.any(is_more))
         return;
       to = predicted;
-      to += LeastPush(GapEnergies(carried), free_dofs, follow).find();
+      to += LeastPush(GapEnergies(carried), free_dofs, follow_or_stop).find();
     }
   }
 

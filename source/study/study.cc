@@ -4,6 +4,7 @@
 #include <exemplar/base/message_text.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/progress.h>
+#include <exemplar/base/words.h>
 #include <exemplar/run/output/final_pose.h>
 #include <exemplar/run/output/run_directory.h>
 #include <exemplar/run/scene/scene_file.h>
@@ -120,6 +121,20 @@ namespace Exemplar
       return n;
     }
 
+    /// Throws SolverFailure if the reference has failed, without which no other run has an error.
+    void
+    require_reference(const StudyPlan &plan, const StudyRuns &runs)
+    {
+      const StudyRecord &record = runs.record(plan.reference->name);
+      if (record.succeeded())
+        return;
+      throw SolverFailure("The reference run has ended with the status " + record.status
+                          + ", so the errors of the other runs could not be computed. "
+                          + record.message
+                          + " Change Reference: a Solver/Tolerance of 1e-9 is small enough for "
+                            "most studies. Or leave it out, then the runs are not compared.");
+    }
+
     /// Make the reference, then the first repeat of all runs, then the second, so that a temporary
     /// slowdown of the machine does not affect all repeats of one run.
     void
@@ -140,10 +155,18 @@ namespace Exemplar
       try
       {
         if (plan.reference)
+        {
           make(*plan.reference, 1);
+          require_reference(plan, runs);
+        }
         for (unsigned int repeat = 1; repeat <= plan.study.repeats; ++repeat)
           for (const PlannedRun &run : plan.runs)
             make(run, repeat);
+      }
+      catch (const SolverFailure &)
+      {
+        progress.finish();
+        throw;
       }
       catch (const Interrupted &)
       {
@@ -162,8 +185,9 @@ namespace Exemplar
       const std::size_t  n_others = runs.others(plan.names()).size();
       std::cout << "Study     " << plan.study.file.string() << '\n'
                 << "Scene     " << plan.study.scene.string() << '\n'
-                << "Runs      " << plan.runs.size() << " combinations, " << plan.n_repeats()
-                << " runs with repeats" << (plan.reference ? " and the reference" : "") << '\n';
+                << "Runs      " << counted(plan.runs.size(), "combination") << ", "
+                << counted(plan.n_repeats(), "run") << " with repeats"
+                << (plan.reference ? " and the reference" : "") << '\n';
       if (n_done > 0)
         std::cout << "          " << n_done << " of them are there from an earlier call\n";
       if (n_others > 0)
@@ -200,10 +224,6 @@ namespace Exemplar
     StudyTable
     make_table(const StudyPlan &plan, const StudyRuns &runs)
     {
-      if (plan.reference && !runs.record(plan.reference->name).succeeded())
-        warn("The reference run has ended with the status "
-             + runs.record(plan.reference->name).status + ", so there are no errors. "
-             + runs.record(plan.reference->name).message);
       StudyTable table{
         plan.study.axes, {}, plan.reference.has_value(), extra_columns_of(plan.study)
       };
@@ -291,8 +311,8 @@ namespace Exemplar
     const Study     study(file);
     const StudyPlan plan(study);
     warn_of(plan);
-    std::cout << file.string() << ": valid; " << plan.runs.size() << " combinations, "
-              << plan.n_repeats() << " runs with repeats"
+    std::cout << file.string() << ": valid; " << counted(plan.runs.size(), "combination") << ", "
+              << counted(plan.n_repeats(), "run") << " with repeats"
               << (plan.reference ? " and the reference" : "") << std::endl;
   }
 

@@ -164,6 +164,11 @@ class DamageTest(unittest.TestCase):
         self.assertEqual(mine.read_text(), "mine")
         for _ in range(2):
             self.assertEqual(self.export("good", html="new.html").returncode, 0)
+        for runs, page in ((["good"], "good.html"), (["good/", "good"], "good_good.html")):  # without --html
+            done = call_program("export", *runs, cwd=self.here, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(page, done.stdout)
+            self.assertTrue((self.here / page).exists())
 
 
 class AddressTest(unittest.TestCase):

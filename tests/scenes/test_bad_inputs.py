@@ -47,7 +47,6 @@ COMMANDS = [
      ["--set", "set Base = Section/Key=value", "--help"]),
     ("threads of a study", ["study", "study.prm", "--threads", "2"], ["set Threads = 2"]),
     ("resumed study", ["study", "study.prm", "--resume"], ["goes on by itself"]),
-    ("study checked", ["study", "study.prm", "--validate"], ["exemplar study.prm --validate"]),
     ("output directory of others for a study",
      ["study", "study.prm", "--output", "a directory"],
      ["a directory", "not empty", "no study", "--output"]),

@@ -300,7 +300,6 @@ COMMANDS = [
     (["session.txt"], ["a recorded session, not a scene", "Session/File"]),
     (["study", "table.csv"], ["looks like a table (.csv)"]),
     (["verify", "--case", "patch"], ["no option '--case'", "exemplar verify uniaxial patch"]),
-    (["export", "broken"], ["--html or --gltf is required: exemplar export OUTPUT [OTHER_OUTPUT] --html FILE.html", "exemplar export OUTPUT --gltf FILE.glb"]),
     (["export", "a", "b", "c", "--html", "x.html"], ["one run, or two side by side", "'c' is one too many"]),
     (["export", "broken", "--output", "x.html"], ["no option '--output'", "--html FILE.html"]),
     (["export", "scene.prm", "--html", "x.html"], ["scene.prm is no directory", "output directory of a run"]),

@@ -33,27 +33,24 @@ namespace Exemplar
     explicit Lbfgs(const Exchange &exchange) : exchange(&exchange) {}
 
     void
-    clear()
-    {
-      pairs.clear();
-    }
+    clear();
 
     /// Append a pair if its curvature s.y is positive, and tell whether it is. Both are swapped for the memory of a pair
     /// that has left, so their values are lost.
     bool
     add_pair(std::vector<double> &s, std::vector<double> &y);
 
+    /// Keep the pairs of this moment for go_back(), in place of earlier ones. No pair is copied.
+    void
+    keep();
+
+    /// Restore the pairs of the last keep(), whatever has been added or cleared since then.
+    void
+    go_back();
+
     /// Memory in bytes.
     std::size_t
-    memory_consumption() const
-    {
-      std::size_t bytes = 0;
-      for (const Pair &pair : pairs)
-        bytes
-            += sizeof(double) * (pair.s.capacity() + pair.y.capacity() + pair.inverse_y.capacity())
-               + sizeof(double) * 2 * pair.products.capacity();
-      return bytes;
-    }
+    memory_consumption() const;
 
     /// Replace each stored vector v by function(v), say for a checkpoint, which holds vectors of
     /// the whole body.
@@ -74,6 +71,7 @@ namespace Exemplar
     serialize(Archive &archive, unsigned int /*version*/)
     {
       archive &pairs;
+      n_kept = 0;
     }
 
     /// First loop of the two-loop recursion, applied before the approximate inverse.
@@ -115,8 +113,15 @@ namespace Exemplar
       }
     };
 
+    /// Take the oldest pair away, which waits in `gone` or `spare`.
+    void
+    drop_oldest();
+
     const Exchange  *exchange;
-    std::deque<Pair> pairs; ///< the oldest first
+    std::deque<Pair> pairs;      ///< the oldest first
+    std::size_t      n_kept = 0; ///< so many of the oldest ones have been there since keep()
+    std::deque<Pair> gone;       ///< pairs that have left since keep(), in their order
+    std::deque<Pair> spare;      ///< memory of pairs that nobody needs any more
   };
 } // namespace Exemplar
 

@@ -33,6 +33,10 @@ namespace Exemplar
     void
     add(std::vector<double> &vector);
 
+    /// Undo the last add(). To be called once for it.
+    void
+    take_back();
+
     /// Overwrite `next` by the predicted vector, or by the last one if the prediction is more than
     /// four times as long. Requires a last one.
     void
@@ -42,7 +46,7 @@ namespace Exemplar
     std::size_t
     memory_consumption() const
     {
-      std::size_t bytes = 0;
+      std::size_t bytes = sizeof(double) * left.capacity();
       for (const std::vector<double> &vector : history)
         bytes += sizeof(double) * vector.capacity();
       return bytes;
@@ -73,10 +77,12 @@ namespace Exemplar
 
     const Exchange                 *exchange;
     unsigned int                    order;
-    std::deque<std::vector<double>> history;      ///< the last first, order + 1 at most
-    Products                        products{};   ///< [i][j], i <= j
-    dealii::FullMatrix<double>      gram;         ///< memory of find_coefficients()
-    std::vector<double>             coefficients; ///< which it finds
+    std::deque<std::vector<double>> history; ///< the last first, order + 1 at most
+    std::vector<double>             left;    ///< the vector that the last add() has removed
+    bool                            has_left = false; ///< whether there was one
+    Products                        products{};       ///< [i][j], i <= j
+    dealii::FullMatrix<double>      gram;             ///< memory of find_coefficients()
+    std::vector<double>             coefficients;     ///< which it finds
   };
 } // namespace Exemplar
 

@@ -2,11 +2,16 @@
 #ifndef exemplar_words_h
 #define exemplar_words_h
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace Exemplar
 {
+  /// A number with its noun, which is in the singular: "1 step", "2 steps".
+  std::string
+  counted(std::size_t n, const std::string &noun);
+
   /// The text without blanks at its ends.
   std::string
   trim(const std::string &text);

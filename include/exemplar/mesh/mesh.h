@@ -130,6 +130,14 @@ namespace Exemplar
       return arrays.boundary_faces;
     }
 
+    /// Faces that a boundary id selects in addition: those between two cells, as the file turns them, and faces of the
+    /// boundary under further physical tags.
+    const std::vector<BoundaryFace> &
+    get_further_faces() const
+    {
+      return arrays.further_faces;
+    }
+
     const std::vector<dealii::Point<3>> &
     get_nodes() const
     {

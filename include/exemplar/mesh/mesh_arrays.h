@@ -34,8 +34,11 @@ namespace Exemplar
     std::vector<unsigned int>                material_ids;
     std::vector<std::size_t>                 element_numbers; ///< numbers in the file
     std::vector<BoundaryFace>                boundary_faces;
-    MeshPieces                               pieces;
-    std::vector<std::string>                 warnings; ///< to show the user
+    /// Faces that a boundary id selects in addition: those between two cells, and faces of the boundary under further
+    /// physical tags.
+    std::vector<BoundaryFace> further_faces = {};
+    MeshPieces                pieces;
+    std::vector<std::string>  warnings; ///< to show the user
   };
 
   /// Multiply the nodes by `scale`, and check. `name` stands for the file in messages. Throws

@@ -48,7 +48,8 @@ namespace Exemplar
     {
       MshFile                       &contents = arrays.contents;
       archive &whole &cells_in_file &contents.node_numbers &contents.nodes &contents.physical_names;
-      archive &arrays.cells &arrays.material_ids &arrays.element_numbers &arrays.boundary_faces;
+      archive &arrays.cells &arrays.material_ids &arrays.element_numbers &arrays
+          .boundary_faces                                                &arrays.further_faces;
     }
   };
 
@@ -64,13 +65,14 @@ namespace Exemplar
     return some;
   }
 
-  /// The part of a whole mesh with these nodes, ascending, and with cells and boundary faces on
+  /// The part of a whole mesh with these nodes, ascending, and with cells, boundary faces and further faces on
   /// these nodes only. Its exchange is not set.
   MeshPart
   part_of(const Mesh                      &whole,
           const std::vector<unsigned int> &nodes,
           const std::vector<unsigned int> &cells,
-          const std::vector<unsigned int> &faces);
+          const std::vector<unsigned int> &faces,
+          const std::vector<unsigned int> &further_faces);
 
   /// The cells of a body that a process has, and the exchange of cell data with the whole body.
   class CellOrder

@@ -50,6 +50,9 @@ namespace Exemplar
     std::vector<MshElement>       elements;     ///< elements in file order
     /// (dimension, physical tag) -> name
     std::map<std::pair<int, int>, std::string> physical_names;
+    /// (dimension, tag of a geometrical entity) -> physical tags of its elements in addition to MshElement::physical. A
+    /// file of version 2.2 repeats the elements for each of them.
+    std::map<std::pair<int, int>, std::vector<int>> further_groups = {};
     /// Ties of the vertices of the surface that the mesh was made of, in the surface's order; empty
     /// where they are those that the places at rest give. A section of our own, $SurfaceTies, has
     /// them: their number, and a line of four node numbers and four shares each.
@@ -90,8 +93,16 @@ namespace Exemplar
   const MshElementKind *
   find_msh_element_kind(unsigned int type);
 
-  /// Read a .msh file of version 2.2 or 4.1, ASCII or binary. In a 4.1 file the
-  /// physical tag comes from the element's entity (its first physical group).
+  /// Physical tags of an element in addition to its first one.
+  const std::vector<int> &
+  further_groups_of(const MshFile &msh, const MshElement &element);
+
+  /// Whether an element is in the physical group of this tag, whose sign does not count.
+  bool
+  is_in_group(const MshFile &msh, const MshElement &element, unsigned int tag);
+
+  /// Read a .msh file of version 2.0 to 2.2 or 4.1, ASCII or binary. In a 4.1 file the
+  /// physical tags come from the element's entity.
   /// Throws UserError, naming the file and what is missing, if it cannot be
   /// opened, is truncated, of another version, or refers to unknown nodes.
   MshFile

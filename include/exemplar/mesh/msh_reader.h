@@ -58,6 +58,12 @@ namespace Exemplar
     require_all(std::size_t n_read, std::size_t n_announced) const;
     void
     resolve_entities();
+
+    /// Version 2 repeats the tetrahedra of an entity for each of its further groups: keep one of each.
+    void
+    merge_repeated_cells();
+    void
+    merge_cells_of(int volume, std::size_t n_groups);
     void
     resolve_node_numbers();
 
@@ -65,8 +71,8 @@ namespace Exemplar
     bool                  version_4 = false;
     std::set<std::string> seen;
     MshFile               msh;
-    /// 4.1: (dimension, entity) -> first physical tag
-    std::map<std::pair<unsigned int, int>, int> entity_physical;
+    /// 4.1: (dimension, entity) -> physical tags
+    std::map<std::pair<unsigned int, int>, std::vector<int>> entity_physical;
   };
 } // namespace Exemplar
 

@@ -144,6 +144,14 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
+    /// The rotation vector [rad]. Throws SolverFailure if it is not finite or too long.
+    const SpaceVector3 &
+    checked_turn(const SpaceVector3 &rotation_vector, double time) const;
+
+    /// The pose. Throws SolverFailure if it is not finite or too far away.
+    ObstaclePose
+    checked(const ObstaclePose &pose, double time) const;
+
     static constexpr double rounding = 1e-12; ///< of times [s]
 
     std::string     called;

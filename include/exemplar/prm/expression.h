@@ -11,6 +11,11 @@
 
 namespace Exemplar
 {
+  /// The formulas of a text, which ';' separates, or commas outside of parentheses if these make `n_components` of
+  /// several.
+  std::vector<std::string>
+  split_formulas(const std::string &text, unsigned int n_components);
+
   /// Formulas of a scene file, separated by ';', or by commas outside of parentheses, evaluated by muParser.
   class Expression
   {

@@ -71,6 +71,10 @@ namespace Exemplar::Python
   void
   add_refusals_to_set(ProblemClass &problem);
 
+  /// Makes the error on an attribute that the type does not have name the nearest one.
+  void
+  suggest_attributes(const pybind11::object &type);
+
   /// Makes pickle and copy refuse the objects of a type: with pickle's oldest protocols pybind11
   /// would end the process.
   void

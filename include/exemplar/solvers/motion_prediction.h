@@ -22,6 +22,13 @@ namespace Exemplar
     void
     predict(const State &accepted, double step_size, State &trial);
 
+    /// Undo the last predict(), whose step is abandoned: the same velocity is added when that step is made.
+    void
+    take_back()
+    {
+      velocities.take_back();
+    }
+
     void
     forget()
     {

@@ -9,6 +9,7 @@
 #include <exemplar/solvers/rotated_metric.h>
 #include <exemplar/solvers/staged_motion.h>
 
+#include <memory>
 #include <vector>
 
 namespace Exemplar
@@ -49,29 +50,51 @@ namespace Exemplar
     memory_consumption() const override;
 
   private:
-    /// Where the metric was made, and how it has served since.
-    struct MetricHistory
+    /// Where a metric was made.
+    struct MetricOrigin
     {
-      Vector              positions; ///< [m]; empty: none was made
+      Vector              positions; ///< [m]
       std::vector<double> weights;   ///< then, which some convex tangents know
       NodePairs           couplings; ///< of terms, then
       State               start; ///< of the step, if the energy changes between steps; else empty
-      double              time            = 0.; ///< of that step's end [s]
-      double              step_size       = 0.; ///< [s]
-      double              mass_factor     = 0.; ///< IncrementalPotential::mass_factor() then
-      unsigned int        steps           = 0;  ///< since then
-      unsigned int        iterations      = 0;  ///< in these steps
-      unsigned int        last_iterations = 0;  ///< in the last of them
-      unsigned int contact_steps = 0, contact_iterations = 0; ///< of those in which gaps mattered
+      double              time        = 0.; ///< of that step's end [s]
+      double              step_size   = 0.; ///< [s]
+      double              mass_factor = 0.; ///< IncrementalPotential::mass_factor() then
+    };
+
+    /// Where the metric was made, and how it has served since. Copies share the origin.
+    struct MetricHistory
+    {
+      std::shared_ptr<const MetricOrigin> made;                ///< null: none was made
+      unsigned int                        steps           = 0; ///< since then
+      unsigned int                        iterations      = 0; ///< in these steps
+      unsigned int                        last_iterations = 0; ///< in the last of them
+      unsigned int contact_steps = 0, contact_iterations = 0;  ///< of those in which gaps mattered
       bool         last_in_contact = false;
+
+      double
+      mass_factor() const
+      {
+        return made ? made->mass_factor : 0.;
+      }
 
       template <typename Archive>
       void
       serialize(Archive &archive, unsigned int /*version*/)
       {
-        archive &positions &weights &couplings &start &time &step_size &mass_factor &steps
-            &iterations &last_iterations &contact_steps &contact_iterations &last_in_contact;
+        MetricOrigin origin = made ? *made : MetricOrigin();
+        archive &origin.positions &origin.weights &origin.couplings &origin.start &origin
+            .time &origin.step_size &origin.mass_factor &steps &iterations &last_iterations
+                &contact_steps &contact_iterations &last_in_contact;
+        made = origin.positions.size() > 0 ? std::make_shared<const MetricOrigin>(std::move(origin))
+                                           : nullptr;
       }
+    };
+
+    /// What a step that is abandoned restores, in addition to pairs and velocities.
+    struct KeptHistory
+    {
+      MetricHistory history, next;
     };
 
     /// A step of the method, and what has been seen of the steps before it.
@@ -97,6 +120,22 @@ namespace Exemplar
       Vector              displacement;
       std::vector<float>  node_rotations;
     };
+
+    /// Remember what save() would write now.
+    void
+    keep();
+
+    /// To the last keep(), after predict().
+    void
+    go_back();
+
+    /// The step itself. Throws Interrupted, with a memory of half a step.
+    SolveReport
+    solve_or_hand_over(State &state, Evaluation &evaluation, double time, double step_size);
+
+    /// report_iteration(). Throws Interrupted if the step is to be abandoned.
+    void
+    report_or_stop(State &trial, const Evaluation &evaluation, SolveReport &report) const;
 
     void
     predict(const State &accepted, double step_size, State &trial, Evaluation &evaluation);
@@ -220,7 +259,8 @@ namespace Exemplar
     ContactModel           contact;
     MetricHistory          history;
     bool                   in_contact = false; ///< whether gaps have mattered in this step
-    MetricHistory          next; ///< of the metric that a thread makes; without positions: none
+    MetricHistory          next;           ///< of the metric that a thread makes, if there is one
+    KeptHistory            kept;           ///< where the step began
     std::vector<float>     next_rotations; ///< of the nodes where it was assembled
   };
 } // namespace Exemplar

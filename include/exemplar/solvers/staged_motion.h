@@ -19,14 +19,17 @@ namespace Exemplar
     using Follow = std::function<void(std::vector<double> &)>;
 
     /// All must outlive the object.
-    StagedMotion(IncrementalPotential &potential, const Handles &handles)
-        : potential(potential), handles(handles)
+    StagedMotion(IncrementalPotential        &potential,
+                 const Handles               &handles,
+                 const std::function<bool()> &may_go_on)
+        : potential(potential), handles(handles), may_go_on(may_go_on)
     {
     }
 
     /// From positions at `start_time`, where all gaps are open, to those at `time`. `to` holds where the body would be,
     /// with held nodes where handles put them, and is drawn back or carried to where gaps are open too; obstacles stand where they
-    /// are at `time` then. Returns the number of stages. Throws SolverFailure where that cannot be.
+    /// are at `time` then. Returns the number of stages. Throws SolverFailure where that cannot be, and Interrupted
+    /// between two stages if `may_go_on` returns false.
     unsigned int
     move(double start_time, const Vector &from, double time, Vector &to, const Follow &follow);
 
@@ -56,9 +59,14 @@ namespace Exemplar
     [[noreturn]] void
     refuse(double now, double time, const Vector &from, const Vector &way) const;
 
-    IncrementalPotential &potential;
-    const Handles        &handles;
-    Vector                displacement; ///< of a step without stages, kept for its memory alone
+    /// Throws Interrupted unless the motion may go on.
+    void
+    stop_if_interrupted() const;
+
+    IncrementalPotential        &potential;
+    const Handles               &handles;
+    const std::function<bool()> &may_go_on; ///< of the solver; may be empty
+    Vector displacement;                    ///< of a step without stages, kept for its memory alone
   };
 } // namespace Exemplar
 

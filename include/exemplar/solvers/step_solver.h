@@ -26,7 +26,8 @@ namespace Exemplar
 
     /// Go from `state`, where `evaluation` was made, to time t [s] by a step of length h [s]
     /// (of dynamics; not used otherwise). If the report is a success, `state` is the new one and
-    /// `evaluation` that of it; else `state` is as it was. Throws Interrupted.
+    /// `evaluation` that of it; else `state` is as it was. Throws Interrupted, with `state` and everything that
+    /// save() writes as they were.
     virtual SolveReport
     solve(State &state, Evaluation &evaluation, double time, double step_size)
         = 0;
@@ -60,9 +61,12 @@ namespace Exemplar
       return 0;
     }
 
-    /// Called after the evaluation of every iteration. Where a solver can stop within a step
-    /// without harm to what it remembers, it does so, with Interrupted, if this returns false.
+    /// Called after the evaluation of every iteration. If it returns false and the iteration does not end the step,
+    /// the solver abandons the step with Interrupted.
     std::function<bool(const SolveReport &)> observe;
+
+    /// Called between the parts of long iterations. If it returns false, the solver abandons the step with Interrupted.
+    std::function<bool()> may_go_on;
 
   protected:
     /// Measure the residual, set the state's multipliers, and show the report to who observes.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/number_text.h>
+#include <exemplar/base/words.h>
 #include <exemplar/run/inputs/made_of_surfaces.h>
 
 #include <fmt/core.h>
@@ -40,11 +41,11 @@ namespace Exemplar
                       + value("surface_to_mesh_max") + " % of the diagonal from it at most, "
                       + value("surface_to_mesh_mean") + " % on average");
     for (const MadeOfSurfaces::Pose &pose : made.poses)
-      lines.push_back(fmt::format(
-          "{}: {} inverted cells, det F from {} to {}; {} from the surface at most, {} on average",
-          pose.file, pose.quality.n_inverted, short_text(pose.quality.min_det),
-          short_text(pose.quality.max_det), percent(pose.quality.max_error),
-          percent(pose.quality.mean_error)));
+      lines.push_back(
+          fmt::format("{}: {}, det F from {} to {}; {} from the surface at most, {} on average",
+                      pose.file, counted(pose.quality.n_inverted, "inverted cell"),
+                      short_text(pose.quality.min_det), short_text(pose.quality.max_det),
+                      percent(pose.quality.max_error), percent(pose.quality.mean_error)));
     return lines;
   }
 

@@ -78,7 +78,8 @@ namespace Exemplar
     const unsigned int               n     = whole.mesh.n_nodes();
     const std::vector<unsigned int>  vertices(nodes.begin(),
                                               std::lower_bound(nodes.begin(), nodes.end(), n));
-    return { "", part.nodes, part_of(whole.mesh, vertices, part.cells, part.faces),
+    return { "", part.nodes,
+             part_of(whole.mesh, vertices, part.cells, part.faces, part.further_faces),
              part_of(whole.fields, part, vertices, n) };
   }
 

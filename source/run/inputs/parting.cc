@@ -85,7 +85,15 @@ namespace Exemplar
       return chosen(process_of, lumps);
     }
 
-    /// Assign each face of the boundary to the process of its cell.
+    std::array<unsigned int, 3>
+    ascending_nodes(const BoundaryFace &face)
+    {
+      std::array<unsigned int, 3> nodes = face.nodes;
+      std::sort(nodes.begin(), nodes.end());
+      return nodes;
+    }
+
+    /// Assign each face of the boundary to the process of its cell, and each further face to that of its first cell.
     void
     give_faces(const Mesh                      &mesh,
                const std::vector<CellFace>     &faces,
@@ -94,16 +102,23 @@ namespace Exemplar
     {
       std::map<std::array<unsigned int, 3>, unsigned int> number;
       for (unsigned int face = 0; face < mesh.get_boundary_faces().size(); ++face)
-      {
-        std::array<unsigned int, 3> ascending = mesh.get_boundary_faces()[face].nodes;
-        std::sort(ascending.begin(), ascending.end());
-        number[ascending] = face;
-      }
+        number[ascending_nodes(mesh.get_boundary_faces()[face])] = face;
+      std::multimap<std::array<unsigned int, 3>, unsigned int> further;
+      for (unsigned int face = 0; face < mesh.get_further_faces().size(); ++face)
+        further.emplace(ascending_nodes(mesh.get_further_faces()[face]), face);
       for (const CellFace &face : faces)
+      {
+        PartOfBody &part = parts[process_of_cell[face.cell]];
         if (const auto found = number.find(face.nodes); found != number.end())
-          parts[process_of_cell[face.cell]].faces.push_back(found->second);
+          part.faces.push_back(found->second);
+        const auto [begin, end] = further.equal_range(face.nodes);
+        for (auto found = begin; found != end; ++found)
+          part.further_faces.push_back(found->second);
+        further.erase(begin, end);
+      }
       for (PartOfBody &part : parts)
-        std::sort(part.faces.begin(), part.faces.end());
+        for (std::vector<unsigned int> *const some : { &part.faces, &part.further_faces })
+          std::sort(some->begin(), some->end());
     }
 
     /// Assign all nodes of its cells to each process.

@@ -167,13 +167,14 @@ namespace Exemplar
              const std::string   &mesh_sha256,
              Json                &json)
     {
-      const Body &body         = problem.body;
-      json["scene"]            = printable(problem.parameters.name);
-      json["mesh"]             = printable(body.mesh.get_name());
-      json["mesh_sha256"]      = mesh_sha256;
-      json["cells"]            = body.mesh.whole().n_cells;
-      json["element"]          = traits_of(body.fe_space.element()).name;
-      json["nodes"]            = numbers.n_nodes;
+      const Body &body    = problem.body;
+      json["scene"]       = printable(problem.parameters.name);
+      json["mesh"]        = printable(body.mesh.get_name());
+      json["mesh_sha256"] = mesh_sha256;
+      json["cells"]       = body.mesh.whole().n_cells;
+      json["element"]     = traits_of(body.fe_space.element()).name;
+      json["nodes"]
+          = numbers.n_nodes - (body.fe_space.is_shell() ? body.fe_space.shell().n_slopes() : 0);
       json["dofs"]             = 3 * numbers.n_nodes;
       json["constrained_dofs"] = 3 * numbers.n_nodes - numbers.n_free;
       if (problem.constraints.support)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/number_text.h>
 #include <exemplar/prm/assignments.h>
+#include <exemplar/prm/expression.h>
 #include <exemplar/run/problem/idle_review.h>
 #include <exemplar/run/problem/motion_review.h>
 
@@ -26,7 +27,7 @@ namespace Exemplar
     std::vector<unsigned int>
     directions_of(const LoadParameters &load)
     {
-      const std::vector<std::string> formulas = split_trimmed(load.force, ';');
+      const std::vector<std::string> formulas = split_formulas(load.force, 3);
       std::vector<unsigned int>      directions;
       for (unsigned int c = 0; c < formulas.size(); ++c)
         if (parse_number(formulas[c]) != 0.)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/potential/contact_clearance.h>
@@ -160,6 +161,13 @@ namespace Exemplar
         if (way.norm() == 0.)
           way = -first.outwards;
         const double depth = -first.least;
+        if (!(depth > 0.))
+          throw UserError(fmt::format(
+              "{} touches Obstacles/{} near {} m, and its shape does not tell on which side the "
+              "body is. Move the obstacle (Shape), or the body (Initial/Pose), until there is a "
+              "gap.",
+              time > 0. ? "At t = " + shortest_text(time) + " s the body" : "The body",
+              obstacle.name(), place_text(first.place)));
         if (way.norm() > 0.)
           way *= 1.001 * depth / way.norm();
         throw UserError(fmt::format(
@@ -212,13 +220,13 @@ namespace Exemplar
       constexpr double   golden = 0.618; // of the step: what is back at its end is elsewhere then
       const ObstaclePose from = obstacle.pose(begin), to = obstacle.pose(end),
                          between = obstacle.pose(begin + golden * (end - begin));
-      double way = std::max((between.place - from.place).norm(), (to.place - from.place).norm());
+      double way = max_or_nan((between.place - from.place).norm(), (to.place - from.place).norm());
       const bool deforms = obstacle.deforms();
       const auto before  = deforms ? obstacle.vertices(begin) : std::vector<SpaceVector3>();
       const auto after   = deforms ? obstacle.vertices(end) : before;
       for (std::size_t v = 0; v < before.size(); ++v)
-        way = std::max(way, (after[v] - before[v]).norm());
-      if (way > greatest * diameter)
+        way = max_or_nan(way, (after[v] - before[v]).norm());
+      if (!(way <= greatest * diameter))
         throw UserError(fmt::format(
             "Obstacles/{} goes {} m in the step to t = {} s, more than a quarter of the body's "
             "diameter of {} m. Take smaller steps (Time/Step or Time/Increments), or a slower {}.",
@@ -226,7 +234,7 @@ namespace Exemplar
             deforms ? "cache" : "Motion"));
       const double turn = std::max(turn_of_form(obstacle.shape(), from, between),
                                    turn_of_form(obstacle.shape(), from, to));
-      if (turn > most_turned)
+      if (!(turn <= most_turned))
         throw UserError(fmt::format(
             "Obstacles/{} turns by {} rad in the step to t = {} s, more than 1. Take smaller "
             "steps (Time/Step or Time/Increments), or a slower Turn or track.",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
+#include <exemplar/base/words.h>
 #include <exemplar/body/pose_checks.h>
 #include <exemplar/potential/fibre_tension_term.h>
 #include <exemplar/run/problem/balance.h>
@@ -172,6 +173,36 @@ namespace Exemplar
   SolveReport
   Problem::advance(const StepInterval &interval)
   {
+    // which a step may change before it is made: slopes follow handles, and starts from examples forget
+    const State       before = slopes_held.empty() ? State() : state;
+    const std::string memory = starts_from_examples(interval) ? solver_memory() : "";
+    try
+    {
+      return make_step(interval);
+    }
+    catch (const Interrupted &)
+    {
+      if (!slopes_held.empty())
+      {
+        state = before;
+        hold_slopes_as_in(std::max(state.step, 1U) - 1);
+      }
+      if (!memory.empty())
+        load_memory(memory);
+      start(state);
+      throw;
+    }
+  }
+
+  bool
+  Problem::starts_from_examples(const StepInterval &interval) const
+  {
+    return parameters.solver.starts == Starts::examples && interval.end == end_of_scene(*this);
+  }
+
+  SolveReport
+  Problem::make_step(const StepInterval &interval)
+  {
     if (session != nullptr)
       session->begin_step();
     check_weights(*this, interval);
@@ -274,7 +305,7 @@ namespace Exemplar
               places_of_body(body.fe_space.numbering()));
         start(next);
       }
-      if (parameters.solver.starts == Starts::examples && interval.end == end_of_scene(*this))
+      if (starts_from_examples(interval))
         start_from_examples(*this, next, interval, report);
       refuse_what_is_not_finite(*this, next, report);
     }
@@ -340,21 +371,27 @@ namespace Exemplar
     {
       // memory is of the last step, and slopes that are released and held again are others by rounding
       follow_time(time_axis.time(std::max(state.step, 1U) - 1));
-      std::istringstream              bytes(solver_memory);
-      boost::archive::binary_iarchive archive(bytes);
-      solver->load(archive);
-      for (const auto &term : potential.get_terms())
-        term->load(archive);
-      if (audit != nullptr)
-        audit->load(archive);
-      potential.get_tangent().follow_couplings();
-      if (bytes.peek() != std::char_traits<char>::eof())
-        throw boost::archive::archive_exception(
-            boost::archive::archive_exception::input_stream_error);
+      load_memory(solver_memory);
     }
     start(state);
     if (audit != nullptr && solver_memory.empty())
       audit->restart("the state");
+  }
+
+  void
+  Problem::load_memory(const std::string &solver_memory)
+  {
+    std::istringstream              bytes(solver_memory);
+    boost::archive::binary_iarchive archive(bytes);
+    solver->load(archive);
+    for (const auto &term : potential.get_terms())
+      term->load(archive);
+    if (audit != nullptr)
+      audit->load(archive);
+    potential.get_tangent().follow_couplings();
+    if (bytes.peek() != std::char_traits<char>::eof())
+      throw boost::archive::archive_exception(
+          boost::archive::archive_exception::input_stream_error);
   }
 
   std::string
@@ -372,34 +409,51 @@ namespace Exemplar
     return bytes.str();
   }
 
+  bool
+  Problem::loads_act_at_once() const
+  {
+    return parameters.scene == SceneKind::statics && state.step == 0
+           && parameters.loads.ramp == LoadRamp::none && actions.loads != nullptr
+           && (actions.loads->has_gravity() || time_axis.n_steps() == 1);
+  }
+
   std::string
   Problem::failure_message(const SolveReport &report) const
   {
     const std::string step = fmt::format("Step {}", state.step + 1);
+    const std::string ramp = "The loads act in full from the first increment: let them grow over "
+                             "the increments (Loads/Ramp = increments, Time/Increments = 100)";
     if (report.status == SolveStatus::failed || report.status == SolveStatus::indefinite)
+    {
+      const bool may_be_of_loads = report.status == SolveStatus::indefinite
+                                   || report.failure.find("smaller steps") != std::string::npos;
       return step + (report.status == SolveStatus::failed ? " failed: " : " has no descent: ")
-             + report.failure;
+             + report.failure + (may_be_of_loads && loads_act_at_once() ? " " + ramp + "." : "");
+    }
     std::ostringstream message;
     const bool         lacks_derivative = parameters.solver.method == Method::fixed_point
                                   && examples.poses.size() > 0
                                   && traits_of(parameters.model.law()).has_rotations
                                   && !traits_of(parameters.model.law()).exact_is_rotated;
-    message
-        << step
-        << (report.status == SolveStatus::stalled ? " stalled" : " stopped at its iteration limit")
-        << ": residual " << report.residual << " after " << report.iterations
-        << " iterations, tolerance " << parameters.solver.tolerance
-        << (lacks_derivative
-                ? ". The matrix of a fixed point lacks a part of the consistent force's "
-                  "derivative, so it may never converge: set Solver/Method = newton, "
-                  "or Model/Gradient = frozen."
-            : report.load_stages > 0 && parameters.scene == SceneKind::statics
-                ? fmt::format(" and {} stages in which the loads were raised. Let them grow over "
-                              "the increments (Loads/Ramp = increments, Time/Increments = 100), or "
-                              "look at the units of Young's modulus, density and lengths.",
-                              report.load_stages)
-                : ". Take smaller steps (Time/Step or Time/Increments), or change "
-                  "Solver/Tolerance or Solver/Maximum iterations.");
+    message << step
+            << (report.status == SolveStatus::stalled ? " stalled"
+                                                      : " stopped at its iteration limit")
+            << ": residual " << report.residual << " after "
+            << counted(report.iterations, "iteration") << ", tolerance "
+            << parameters.solver.tolerance
+            << (lacks_derivative
+                    ? ". The matrix of a fixed point lacks a part of the consistent force's "
+                      "derivative, so it may never converge: set Solver/Method = newton, "
+                      "or Model/Gradient = frozen."
+                : report.load_stages > 0 && parameters.scene == SceneKind::statics ? fmt::format(
+                      " and {} stages in which the loads were raised. Let them grow over "
+                      "the increments (Loads/Ramp = increments, Time/Increments = 100), or "
+                      "look at the units of Young's modulus, density and lengths.",
+                      report.load_stages)
+                : loads_act_at_once()
+                    ? ". " + ramp + ", or change Solver/Tolerance or Solver/Maximum iterations."
+                    : ". Take smaller steps (Time/Step or Time/Increments), or change "
+                      "Solver/Tolerance or Solver/Maximum iterations.");
     return message.str();
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/base/plain_name.h>
 #include <exemplar/potential/fibre_tension_term.h>
 #include <exemplar/potential/load_term.h>
 #include <exemplar/potential/obstacle_term.h>
@@ -293,6 +294,7 @@ namespace Exemplar
   void
   Problem::add_obstacle(const ObstacleParameters &obstacle, const ObstacleSurface &surface)
   {
+    require_plain_name(obstacle.name, "Obstacle");
     CompleteScene changed = parameters;
     for (const ObstacleParameters &other : changed.obstacles.named)
       if (other.name == obstacle.name)
@@ -305,9 +307,16 @@ namespace Exemplar
                                              ObstacleSurfaces{ { obstacle.name, surface } });
     if (actions.contact_surface == nullptr)
       actions.contact_surface = std::make_unique<ContactSurface>(body.mesh, body.fe_space);
-    check_obstacle_motions(*added, body, time_axis);
-    suit_obstacles(*added, *actions.contact_surface, body, state.positions, state.time,
-                   actions.notes);
+    try
+    {
+      check_obstacle_motions(*added, body, time_axis);
+      suit_obstacles(*added, *actions.contact_surface, body, state.positions, state.time,
+                     actions.notes);
+    }
+    catch (const SolverFailure &failure) // of a formula
+    {
+      throw UserError(failure.what());
+    }
     count_change("add_obstacle()");
     parameters.obstacles.named.push_back(obstacle);
     if (actions.obstacles != nullptr)

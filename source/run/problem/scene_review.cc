@@ -3,6 +3,7 @@
 #include <exemplar/base/number_text.h>
 #include <exemplar/body/pose_checks.h>
 #include <exemplar/prm/assignments.h>
+#include <exemplar/prm/expression.h>
 #include <exemplar/run/problem/scene_review.h>
 
 #include <fmt/core.h>
@@ -166,7 +167,7 @@ namespace Exemplar
     Warning
     review_components(const HandleParameters &handle)
     {
-      const std::vector<std::string> formulas   = split_trimmed(handle.motion, ';');
+      const std::vector<std::string> formulas   = split_formulas(handle.motion, 3);
       const std::vector<std::string> components = split_trimmed(handle.components, ',');
       std::vector<std::string>       ignored;
       for (std::size_t c = 0; c < std::min<std::size_t>(formulas.size(), 3); ++c)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/base/words.h>
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/potential/body_contact_term.h>
@@ -66,9 +67,10 @@ namespace Exemplar
       const bool is_equilibrium = problem.parameters.scene != SceneKind::dynamic
                                   && problem.parameters.solver.method != Method::one_pass;
       return fmt::format(
-          "{} cells are inverted at the end: element {}{}{}), or let the body turn: handles with "
+          "{} inverted at the end: element {}{}{}), or let the body turn: handles with "
           "fewer nodes or Components.",
-          inverted.size(), list_numbers(inverted),
+          inverted.size() == 1 ? "1 cell is" : counted(inverted.size(), "cell") + " are",
+          list_numbers(inverted),
           is_equilibrium ? ". The state is an equilibrium, but there may be one of less energy: "
                            "look at the frames, or take smaller steps ("
                          : ". Look at the frames, take smaller steps (",
@@ -280,10 +282,10 @@ namespace Exemplar
       all.push_back(describe_end(problem, inverted));
     else if (inversions.n_steps > 0)
       all.push_back(fmt::format(
-          "Cells were inverted in {}{} on the way, up to {} in step {}, first in step {}: element "
+          "Cells were inverted in {} on the way, up to {} in step {}, first in step {}: element "
           "{}. At the end none is. Smaller steps may avoid it.",
-          inversions.n_steps, inversions.n_steps == 1 ? " step" : " steps", inversions.n_cells,
-          inversions.worst_step, inversions.first_step, list_numbers(inversions.elements)));
+          counted(inversions.n_steps, "step"), inversions.n_cells, inversions.worst_step,
+          inversions.first_step, list_numbers(inversions.elements)));
     if (first_raised > 0)
       all.push_back(fmt::format(
           "Step {} stalled under its whole load, so its loads were raised in stages within the "

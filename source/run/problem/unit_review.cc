@@ -3,6 +3,7 @@
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/base/words.h>
 #include <exemplar/prm/degrees.h>
 #include <exemplar/prm/expression.h>
 #include <exemplar/run/problem/unit_review.h>
@@ -189,9 +190,9 @@ namespace Exemplar
       const unsigned int every = problem.parameters.output.every, n = problem.time_axis.n_steps();
       if (every == 0 || n / every <= many_frames)
         return {};
-      return fmt::format("The run makes {} steps and writes {} frames. If so many are not meant, "
+      return fmt::format("The run makes {} and writes {}. If so many are not meant, "
                          "{}set Output/Every = {}, for 1000 frames.",
-                         n, n / every,
+                         counted(n, "step"), counted(n / every, "frame"),
                          problem.actions.mass != nullptr ? "take a greater Time/Step, or " : "",
                          n / 1000);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/base/words.h>
 #include <exemplar/run/scene/scene_parameters.h>
 
 namespace Exemplar
@@ -75,7 +76,12 @@ namespace Exemplar
     const std::string solid = key_of_solids(*this), key = "Mesh/Kind = shell: ";
     refuse({
         { !solid.empty(),
-          key + solid + " is of bodies with a volume. Remove it, or set Mesh/Kind = solid." },
+          key + solid + " is of bodies with a volume. Remove it"
+              + (ends_with(solid, "/Yield stress") ? ": a sheet does not flow, but Examples/Yield "
+                                                     "lets it keep the weights of its "
+                                                     "examples. Or"
+                                                   : ", or")
+              + " set Mesh/Kind = solid." },
         { mesh.n_cells != MeshParameters().n_cells || mesh.repair,
           key
               + "Mesh/Cells and Repair fill a surface with cells. Remove them, or set Mesh/Kind "
@@ -103,7 +109,7 @@ namespace Exemplar
         { !mesh.files.empty() || !ties.empty(),
           key
               + "Mesh/Files and Ties are not for shells yet. Give one Mesh/File, in pieces if "
-                "need be." },
+                "need be. Sheets and solids in one scene are not supported." },
         { loads.balanced, key + "Loads/Balanced = true is not for shells yet. Set it to false." },
         { examples.regions != RegionsOfExamples::none,
           key

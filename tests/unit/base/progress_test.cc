@@ -29,7 +29,7 @@ namespace Exemplar::Testing
     TEST(Progress, ALongStepShowsWhatItHasComeTo)
     {
       const std::string text = shown(false);
-      expect_contains(text, "[##########..........] step 2 of 2, 1 s, 7 iterations");
+      expect_contains(text, "[##########..........] step 2 of 2, 1 s so far, 7 iterations");
       EXPECT_EQ(text.back(), '\n');
     }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/mesh/selection.h>
+
 #include "expect_contains.h"
 #include "meshes.h"
 
@@ -189,10 +191,14 @@ namespace Exemplar::Testing
       msh.elements.push_back({ 52, triangle, 9, 1, { 2, 1, 0 } });  // 50 again, other tag
       msh.elements.push_back({ 53, triangle, -7, 1, { 2, 1, 0 } }); // 50 again, same tag
       const Mesh mesh(msh, "bar.msh");
-      ASSERT_EQ(mesh.get_warnings().size(), 2U);
-      expect_contains(mesh.get_warnings()[0],
-                      "between two tetrahedra have no boundary id: element 51.");
-      expect_contains(mesh.get_warnings()[1], "that of element 52.");
+      EXPECT_TRUE(mesh.get_warnings().empty());
+      ASSERT_EQ(mesh.get_further_faces().size(), 2U);
+      EXPECT_EQ(mesh.get_further_faces()[0].boundary_id, 9U); // 7 comes first
+      EXPECT_EQ(mesh.get_further_faces()[1].boundary_id, 3U);
+      EXPECT_EQ((Selection{ "boundary 3" }.nodes(mesh, "Select")),
+                (std::vector<unsigned int>{ 1, 2, 3 }));
+      EXPECT_EQ((Selection{ "boundary 9" }.nodes(mesh, "Select")),
+                (std::vector<unsigned int>{ 0, 1, 2 }));
       EXPECT_DOUBLE_EQ(areas(mesh).at(7).norm(), 0.5);
       EXPECT_EQ(areas(mesh).size(), 2U);
     }

@@ -261,12 +261,15 @@ namespace Exemplar::Testing
       EXPECT_NEAR(unknowns.a(), 1e-2, 1e-15);
     }
 
-    TEST(QuasiNewton, LeavesAHillToNewtonAndNobodyStopsItThere)
+    TEST(QuasiNewton, LeavesAHillToNewtonWhereItMayBeStopped)
     {
-      // its memory would be that of half a step
+      TwoUnknowns stopped(stiff_hill(), 1e-2, 0.);
+      EXPECT_THROW(stopped.solve(by_method(Method::quasi_newton),
+                                 [](const SolveReport &now) { return now.iterations < 22; }),
+                   Interrupted);
+      EXPECT_NEAR(stopped.a(), 1e-2, 1e-15);
       TwoUnknowns       unknowns(stiff_hill(), 1e-2, 0.);
-      const SolveReport report = unknowns.solve(by_method(Method::quasi_newton),
-                                                [](const SolveReport &) { return false; });
+      const SolveReport report = unknowns.solve(by_method(Method::quasi_newton));
       EXPECT_EQ(report.status, SolveStatus::converged);
       EXPECT_GT(report.iterations, 21u); // of three metrics
       EXPECT_NEAR(unknowns.a(), 1., 1e-9);

@@ -13,8 +13,9 @@ namespace Exemplar
   /// Which cells, faces and nodes of a body one process has.
   struct PartOfBody
   {
-    std::vector<unsigned int> cells; ///< ascending
-    std::vector<unsigned int> faces; ///< of the boundary, ascending
+    std::vector<unsigned int> cells;         ///< ascending
+    std::vector<unsigned int> faces;         ///< of the boundary, ascending
+    std::vector<unsigned int> further_faces; ///< indices into Mesh::get_further_faces(), ascending
     /// Nodes as in FESpace: those of the mesh file, then for quadratic elements those on edges.
     SharedNodes nodes;
   };

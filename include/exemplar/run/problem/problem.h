@@ -32,7 +32,8 @@ namespace Exemplar
     Problem(const CompleteScene &scene, BodyInputs given, StepClock clock = StepClock(Phase::read));
 
     /// Solve the scene's next step from `state` and replace that if the solve succeeds; see
-    /// next_step().
+    /// next_step(). Throws Interrupted if the solver's `observe` or `may_go_on` stops it: then the state and
+    /// solver_memory() are those at the end of the last step.
     SolveReport
     advance();
 
@@ -224,6 +225,22 @@ namespace Exemplar
     std::function<void(const State &start, double size)> on_step;
 
   private:
+    /// advance(), which may be interrupted.
+    SolveReport
+    make_step(const StepInterval &step);
+
+    /// Whether this step ends with starts from the examples.
+    bool
+    starts_from_examples(const StepInterval &step) const;
+
+    /// Whether the first increment has the whole loads, which it did not solve.
+    bool
+    loads_act_at_once() const;
+
+    /// Throws what boost's archives throw.
+    void
+    load_memory(const std::string &solver_memory);
+
     /// Update the parts that depend on what has changed, in order of dependency, by the bits of
     /// problem_changes.cc.
     void
