@@ -115,16 +115,31 @@ namespace Exemplar
   ObstaclePose
   Obstacle::pose(const double time) const
   {
+    const SpaceVector3 moved = shift + carried.at(time);
     if (track.track.times.empty())
       return { rotation_by(turn.vector({}, time)),
-               own_shape.middle + shift + motion.vector({}, time) };
+               own_shape.middle + moved + motion.vector({}, time) };
     const RigidTrack::Frame    frame = track.track.at(time);
     const SpaceVector3         displacement({ frame[0], frame[1], frame[2] });
     const dealii::Tensor<2, 3> rotation
         = rotation_by(SpaceVector3({ frame[3], frame[4], frame[5] }));
     const SpaceVector3 &middle = own_shape.middle;
     return { rotation,
-             shift + displacement + (track.track.is_of_space ? rotation * middle : middle) };
+             moved + displacement + (track.track.is_of_space ? rotation * middle : middle) };
+  }
+
+  SpaceVector3
+  Obstacle::Carriage::at(const double time) const
+  {
+    if (time >= end)
+      return to;
+    return time <= begin ? from : from + (time - begin) / (end - begin) * (to - from);
+  }
+
+  void
+  Obstacle::carry(const SpaceVector3 &to, const double begin, const double end)
+  {
+    carried = { begin, end, carried.at(begin), to };
   }
 
   std::vector<SpaceVector3>

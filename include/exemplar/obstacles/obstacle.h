@@ -80,8 +80,25 @@ namespace Exemplar
     bool
     is_there(const double time) const
     {
-      return when.holds(time, rounding);
+      return !is_gone && when.holds(time, rounding);
     }
+
+    /// Let it be nowhere from now on.
+    void
+    leave()
+    {
+      is_gone = true;
+    }
+
+    bool
+    has_left() const
+    {
+      return is_gone;
+    }
+
+    /// Let it go straight, between two times [s], to this displacement [m] from where it is without being carried.
+    void
+    carry(const SpaceVector3 &to, double begin, double end);
 
     /// Whether it is there at all times.
     bool
@@ -144,6 +161,16 @@ namespace Exemplar
     memory_consumption() const;
 
   private:
+    /// A displacement [m] that grows between two times [s] from one to another.
+    struct Carriage
+    {
+      double       begin = 0., end = 0.;
+      SpaceVector3 from, to;
+
+      SpaceVector3
+      at(double time) const;
+    };
+
     static constexpr double rounding = 1e-12; ///< of times [s]
 
     std::string     called;
@@ -153,6 +180,8 @@ namespace Exemplar
     Expression      motion, turn;
     ObstacleSurface track; ///< what it follows: without the surface
     SpaceVector3    shift;
+    Carriage        carried    = {};
+    bool            is_gone    = false;
     unsigned int    n_set_back = 0;
   };
 
