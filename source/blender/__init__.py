@@ -27,8 +27,11 @@ class Settings(bpy.types.PropertyGroup):
     thickness: FloatProperty(name="Thickness", default=1e-3, min=1e-9, precision=4, description="How thick the sheet is [m]")
     cells: IntProperty(name="Cells", default=10000, min=10, max=10 ** 7, description="How many tetrahedra fill the body, about")
     stiffness: FloatProperty(name="Stiffness", default=1e5, min=1e-3, precision=0, description="Young's modulus [Pa]")
-    importance: FloatProperty(name="Importance", default=0.9, min=0, max=1, subtype="FACTOR",
+    importance: FloatProperty(name="Importance", default=0.8, min=0, max=1, subtype="FACTOR",
                               description="How strongly the body is pulled towards its shape keys")
+    energy: EnumProperty(name="Shape keys", default="LEAD", items=[
+        ("LEAD", "Lead", "A part that is moved brings the whole shape key along: a fingertip closes the hand"),
+        ("GUIDE", "Guide", "Shape keys draw the body gently: a part that is moved brings little of the rest along")])
     balanced: BoolProperty(name="Balanced", default=True,
                            description="The body stands under its weight as it is drawn, instead of sagging: it carries the stresses from "
                                        "the beginning. Where gravity acts, and Follow or Pin holds it in the first frame")
@@ -44,7 +47,8 @@ class Settings(bpy.types.PropertyGroup):
     weights: EnumProperty(name="Weights", default="SIMPLEX", items=[
         ("SIMPLEX", "Shared", "The weights of the shape keys and of the rest are not negative and sum to 1: for poses"),
         ("ADDITIVE", "Added", "Each shape key has a weight of its own between 0 and 1: for keys as a smile, a blink, an ear"),
-        ("FREE", "Free", "They sum to 1 and may be negative or greater than 1: keys go beyond their shapes")])
+        ("FREE", "Free", "They sum to 1 and may be negative or greater than 1: keys go beyond their shapes"),
+        ("KEYED", "Keyed", "They are the values that the shape keys have in each frame, by keyframes or drivers: the body is drawn to this mix")])
     regions: EnumProperty(name="Regions", default="NONE", items=[
         ("NONE", "None", "The shape keys have the same weights in the whole body"),
         ("AUTO", "Found", "Parts that the shape keys strain apart from others, as limbs, have weights of their own"),
@@ -212,7 +216,7 @@ def advance():
         say_faults(*Running.search.found())
     elif job.is_running():
         show_frame(job.newest_frame())
-        Running.said = f"Frame {max(job.shown, 0)} of {job.n_frames}"
+        Running.said = "\n".join([f"Frame {max(job.shown, 0)} of {job.n_frames}", *in_words("\n".join(job.messages())).splitlines()])
         return True
     elif job.failure() is None:
         show_result(job)
@@ -422,6 +426,9 @@ class Panel(bpy.types.Panel):
             layout.prop(settings, "kind")
             for name in ("thickness" if is_shell(settings) else "cells", "stiffness", "importance"):
                 layout.prop(settings, name)
+            row = layout.row()
+            row.enabled = settings.weights != "KEYED"
+            row.prop(settings, "energy", expand=True)
             for name in ("follow", "pin"):
                 layout.prop_search(settings, name, body, "vertex_groups")
             layout.prop(settings, "more_bodies")

@@ -25,6 +25,7 @@ FIBRES = ("exemplar fibres from", "exemplar fibres to")  # vertex groups between
 REGION = "exemplar region "  # vertex groups whose names begin so are regions with weights of their own
 EARTH = 9.81  # [m/s^2]
 STILL = 1e-5  # of the smallest body's size: what moves less is taken to be at rest
+ENERGIES = {"LEAD": "scaled", "GUIDE": "mixed"}  # what a scene calls the choices of the panel
 LOOSE = .01   # of the volume: smaller parts are dropped by Repair
 
 
@@ -50,6 +51,7 @@ class Shot:
     painted: list      # names of the vertex groups that are maps
     worn: list         # (name, matrix at rest, number of the part) of what the bodies wear
     regions: list = field(default_factory=list)  # names of the painted regions
+    weights: list = field(default_factory=list)  # of each frame a value per shape key of `poses`; empty: the run finds them
     n_frames: int = 0  # after the first one
     steps: int = 1     # a frame
     notes: list = field(default_factory=list)  # what the artist should know
@@ -164,6 +166,9 @@ def check(bodies, scene):
         check_body(body, settings)
     if len(bodies) > 1:
         check_several(bodies)
+    if settings.weights == "KEYED" and settings.regions != "NONE":
+        raise Failure(f"Weights are Keyed, and keyframes say one value per shape key, but Regions are "
+                      f"{'Found' if settings.regions == 'AUTO' else 'Painted'}. Set Regions to None, or Weights to another choice.")
     if settings.regions == "PAINTED" and not regions_of(bodies):
         raise Failure(f"Regions are to be painted, but no vertex group of {listed(bodies)} is called '{REGION}' and a name. Paint one, or set "
                       "Regions to None.")
@@ -245,6 +250,29 @@ def tension_of(body, scene):
         if not 0. <= values[-1] < float("inf"):
             raise Failure(f"{TENSION} of {body.name} is {values[-1]:g} in frame {frame}, but muscles do not push. Keep it at 0 or more.")
     return values
+
+
+def keyed_weights(bodies, poses, scene):
+    """Of each frame the value of each shape key, with what keys and drivers make of it: a key that several objects have is taken from the
+    first of them."""
+    owners = [next(body for body in bodies if body.data.shape_keys and name in body.data.shape_keys.key_blocks) for name in poses]
+    values = []
+    for frame in range(scene.frame_start, scene.frame_end + 1):
+        scene.frame_set(frame)
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        values.append([float(owner.data.shape_keys.evaluated_get(depsgraph).key_blocks[name].value) for owner, name in zip(owners, poses)])
+    if poses and not any(any(row) for row in values):
+        raise Failure(f"Weights are Keyed, but the shape keys of {listed(bodies)} are 0 in all frames. Key their values, or set Weights to another "
+                      "choice.")
+    return values
+
+
+def write_weights(path, shot, rate):
+    """A row a frame: t, and the weight of each example but the rest pose."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(["t", *(f"pose_{i}" for i in range(1, len(shot.poses) + 1))])
+        table.writerows([f"{number:.9g}" for number in (frame / rate, *row)] for frame, row in enumerate(shot.weights))
 
 
 def tension_formula(values, rate):
@@ -389,8 +417,11 @@ def scene_text(body, scene, shot, is_posed, obstacles):
             material["Fibre tension map"] = "groups.csv:muscle"
     keys.add("Material", **material)
     if shot.poses:
-        examples = {"Poses": ", ".join(f"pose_{i}.obj" for i in range(1, len(shot.poses) + 1)),
-                    "Importance": f"{settings.importance:.7g}", "Weights": settings.weights.lower()}
+        examples = {"Poses": ", ".join(f"pose_{i}.obj" for i in range(1, len(shot.poses) + 1)), "Importance": f"{settings.importance:.7g}"}
+        if shot.weights:
+            examples |= {"Weights": "prescribed", "Weights file": "weights.csv"}
+        else:
+            examples |= {"Energy": ENERGIES[settings.energy], "Weights": settings.weights.lower()}
         if shot.regions:
             examples["Weight maps"] = ", ".join(f"groups.csv:region_{i}" for i in range(1, len(shot.regions) + 1))
         if settings.regions == "AUTO":
@@ -515,6 +546,10 @@ def write_scene(bodies, scene, directory):
         obstacles = {f"obstacle {i}": write_obstacle(obstacle, i, scene, directory) for i, obstacle in enumerate(found, 1)}
         shot.obstacles = [obstacle.name for obstacle in found]
         scene.frame_set(scene.frame_start)
+        if bodies[0].exemplar.weights == "KEYED":
+            shot.weights = keyed_weights(bodies, shot.poses, scene)
+            write_weights(directory / "weights.csv", shot, frames_per_second(scene))
+            scene.frame_set(scene.frame_start)
         write_tables(surface, bodies[0].exemplar, shot, directory)
         is_posed = write_motion(surface, shot, scene, directory)
         shot.notes = notes_of(bodies, scene, shot, is_posed)

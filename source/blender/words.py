@@ -6,6 +6,10 @@ import re
 WORDS = [
     (r"[Ss]maller steps \(?Time/Step\)?", "more Steps"), (r"Smaller steps", "More Steps"), (r"smaller steps", "more Steps"),
     (r"; for a table of all: exemplar mesh --surface .* --list-faults FAULTS\.csv", ""),
+    (r"Make the mesh with poses that part them \(exemplar mesh --poses\), or of more cells", "Take more Cells"),
+    (r"Make a mesh of more cells \(--cells, Mesh/Cells\)", "Take more Cells"),
+    (r"Give a pose in which they are apart \(--poses\)", "Give a shape key in which they are apart"),
+    (r"Give a pose that is nearer to rest \(--poses\), or ask for another number of cells", "Give a shape key that is nearer to rest, or other Cells"),
     (r", and those of regions and maps alike", ""), (r"Young's modulus is in Pa", "Stiffness is in Pa"),
     (r"Loads/Balanced = true", "Balanced is on"), (r"set Loads/Balanced = false", "switch Balanced off"), (r"Loads/Balanced", "Balanced"),
     (r"Loads/Gravity", "the scene's gravity"),
@@ -13,7 +17,8 @@ WORDS = [
     (r"Material/Young's modulus", "Stiffness"), (r"Material/Density", "the density"),
     (r"Mesh/Cells", "Cells"), (r"Mesh/Repair = true|(?<!\w)--repair", "Repair"), (r"Mesh/Repair", "Repair"),
     (r"Mesh/Scale", "the scene's unit scale"), (r"Mesh/Carry", "what it wears"), (r"Mesh/(?:File|Surface)", "the body"),
-    (r"Examples/Importance", "Importance"), (r"Examples/Weight maps", "Regions"), (r"Examples/Weights", "Weights"),
+    (r"Examples/Importance", "Importance"), (r"Examples/Weight maps", "Regions"), (r"Examples/Weights file", "the keyed weights"),
+    (r"Examples/Weights", "Weights"),
     (r"Examples/Poses", "the shape keys"),
     (r"Contact/Bodies = true keeps pieces of the mesh out of each other, but it is in one piece\. .*", "More bodies: these have "
      "become one piece. Switch Repair off, and part them in Blender."),
@@ -24,8 +29,10 @@ WORDS = [
     (r"\bgroups\.csv:(follow|pin)\b", lambda found: f"the vertex group of {found[1].capitalize()}"),
     (r"\bgroups\.csv:(stiffness|density|importance)\b", r"the vertex group exemplar \1"),
     (r"\brig\.mdd\b", "the motion of the rig"), (r"\b(?:start\.obj|pin\.mdd)\b", "the pose of the first frame"),
-    # what the panel has not may be set in the folder's scene file
-    (r"\b(?:Contact|Examples|Handles|Loads|Material|Mesh|Model|Output|Solver|Time)/([A-Z][A-Za-z']*(?: [a-z]+)?)", r"\1 (in scene.prm)"),
+    (r"Examples/Energy = scaled", "Lead"), (r"Examples/Energy = mixed", "Guide"), (r"Examples/Energy", "Lead or Guide"),
+    (r"\bweights\.csv\b", "the keyed weights"),
+    # what the panel has not may be set in the scene file of the folder, as the page says
+    (r"\b(?:Contact|Examples|Handles|Loads|Material|Mesh|Model|Output|Solver|Time)/([A-Z][A-Za-z']*(?: [a-z]+)?)", r"\1 (not in this panel)"),
     (r"^exemplar: ", ""),
 ]
 

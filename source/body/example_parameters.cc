@@ -6,6 +6,7 @@
 #include <exemplar/prm/assignments.h>
 #include <exemplar/prm/key_table.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -50,6 +51,23 @@ namespace Exemplar
       return {};
     }
   } // namespace
+
+  std::optional<ExampleEnergy>
+  energy_of_name(const std::string &name)
+  {
+    for (const auto &[energy, called] : energies)
+      if (called == name)
+        return energy;
+    return {};
+  }
+
+  const std::string &
+  name_of_energy(const ExampleEnergy energy)
+  {
+    return std::find_if(energies.begin(), energies.end(),
+                        [energy](const auto &entry) { return entry.first == energy; })
+        ->second;
+  }
 
   void
   ExampleParameters::declare(KeyTable &keys)
@@ -147,12 +165,12 @@ namespace Exemplar
         "a tail and a head, are found and have weights of their own (statistics: weight_R_i for "
         "example i in region R, from 1, as the log and summary.json describe them); none: what "
         "Weights per region or Weight maps say.");
-    keys.add(
-        "Region blend length", region_blend_length,
-        "Distance [m] over which the weights of neighbouring regions pass into each "
-        "other; 0: at once, at the border, and with Regions = auto over a quarter of the cube root of "
-        "the smallest one's volume. Below the size of a cell: over about a cell.",
-        Bounds{ 0. });
+    keys.add("Region blend length", region_blend_length,
+             "Distance [m] over which the weights of neighbouring regions pass into each "
+             "other; 0: at once, at the border, and with Regions = auto over a quarter of the cube "
+             "root of "
+             "the smallest one's volume. Below the size of a cell: over about a cell.",
+             Bounds{ 0. });
     keys.add_files("Weight maps", weight_maps,
                    "Painted regions with weights of their own: a list of FILE.ply:ATTRIBUTE or "
                    "FILE.csv[:COLUMN], each with values from 0 to 1 for the vertices of "

@@ -101,7 +101,10 @@ namespace Exemplar
   }
 
   void
-  Handles::grab(const std::string &name, const std::vector<unsigned int> &nodes, Motion motion)
+  Handles::grab(const std::string               &name,
+                const std::vector<unsigned int> &nodes,
+                Motion                           motion,
+                const Edges                      edges)
   {
     const auto named = std::find_if(handles.begin(), handles.end(),
                                     [&](const Handle &handle) { return handle.name == name; });
@@ -113,9 +116,10 @@ namespace Exemplar
     require_plain_name(name, "Handle");
     if (!motion)
       throw UserError("Handle '" + name + "' has no motion. Give a function of place and time.");
-    const std::string               key    = "Handles/" + name;
-    const std::vector<unsigned int> all    = fe_space.numbering().with_middles(nodes);
-    const std::vector<unsigned int> xyz    = { 0, 1, 2 };
+    const std::string               key  = "Handles/" + name;
+    const bool                      adds = edges == Edges::between_vertices || !fe_space.is_shell();
+    const std::vector<unsigned int> all  = adds ? fe_space.numbering().with_middles(nodes) : nodes;
+    const std::vector<unsigned int> xyz  = { 0, 1, 2 };
     Motion                          moving = at_middles_too(motion, all, fe_space);
     if (named != handles.end())
     {

@@ -13,6 +13,7 @@ export const view = new View(find("canvas"));
 let scene = null;
 let handles = []; // of the scene: {name, vertices, shift}
 let pins = []; // of the state
+let obstacles = []; // of the state: {name, triangles, shift}
 let brush = []; // vertices that were touched
 let hasPulled = false;
 const poses = new Map();
@@ -40,7 +41,7 @@ const hear = {
   },
   state(state) {
     const isOther = JSON.stringify(state.pins) !== JSON.stringify(pins);
-    ({ pins } = state);
+    ({ pins, obstacles } = state);
     for (const handle of handles) {
       const moved = state.handles.find(({ name }) => name === handle.name);
       handle.shift = new Vector3().fromArray(moved ? moved.shift : [0, 0, 0]);
@@ -58,7 +59,7 @@ const hear = {
   warning: ({ text }) => panel.say(text),
   refused({ text }) {
     panel.showRefusal(text);
-    if (/^(grab|move|handle): /.test(text))
+    if (/^(grab|move|handle|carry): /.test(text))
       pointer.drop(); // or each place of the pointer would be refused
   },
   saved: ({ text }) => panel.say(`The pose is in ${text}.`),
@@ -93,7 +94,7 @@ function seeFrame(frame) {
   view.setPlaces(frame.places, frame.inner);
   view.setColours(frame.colours);
   view.skin && frame.number > 0 && motion.see(frame.time, view.skin.places);
-  if (frame.obstacles)
+  if (frame.obstacles && view.obstacles)
     view.obstacles.setPlaces(frame.obstacles);
   panel.showLegend(frame);
   if (isFirst) {
@@ -125,7 +126,29 @@ const connection = new Connection({
   },
 });
 
+// An obstacle on the page is found by the name that no other has had.
+const names = new Set();
+function putObstacle(kind) {
+  const { radius } = view.sphere();
+  const size = 0.2 * radius;
+  const at = view.placeBeside(size).toArray();
+  let number = 1;
+  while (names.has(`${kind} ${number}`) || obstacles.some(({ name }) => name === `${kind} ${number}`))
+    ++number;
+  names.add(`${kind} ${number}`);
+  const friction = 0.5;
+  const numbers = kind === "ball" ? [...at, size, friction] : [...at.map((x) => x - size), ...at.map((x) => x + size), friction];
+  connection.send({ type: "put", name: `${kind} ${number}`, numbers });
+}
+for (const kind of ["ball", "block"])
+  find(kind).onclick = () => putObstacle(kind);
+
 const pointer = new Pointer(view, connection, {
+  obstacleAt(event) {
+    const hit = view.pickObstacle(event, obstacles);
+    const of = hit && obstacles.find(({ name }) => name === hit.name);
+    return of && of.movable ? { ...hit, of, shift: new Vector3().fromArray(of.shift) } : null;
+  },
   tool: () => panel.tool(),
   strength: () => panel.strength(),
   mayAct: () => Boolean(panel.hasMouse && panel.state),

@@ -98,6 +98,15 @@ namespace Exemplar::Live
   }
 
   void
+  Audience::show_obstacles(Welcome other, const std::vector<Bytes> &binaries)
+  {
+    welcome = std::move(other);
+    for (const auto &viewer : std::set<std::shared_ptr<Viewer>>(viewers)) // a copy: one may leave
+      for (const Bytes &binary : binaries)
+        viewer->send_binary(binary);
+  }
+
+  void
   Audience::leave(Viewer *viewer)
   {
     for (const auto &other : viewers)

@@ -93,6 +93,6 @@ export class Body {
     const [a, b, c] = this.corners(hit.faceIndex).map((i) => this.vertex(i));
     const shares = new THREE.Triangle(a, b, c).getBarycoord(hit.point, new THREE.Vector3()).toArray().map((x) => Math.max(0, x));
     const sum = shares[0] + shares[1] + shares[2];
-    return { triangle: hit.faceIndex, shares: shares.map((x) => x / sum), point: hit.point };
+    return { triangle: hit.faceIndex, shares: shares.map((x) => x / sum), point: hit.point, distance: hit.distance };
   }
 }

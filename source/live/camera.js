@@ -19,6 +19,7 @@ export class Camera {
   // Sets the up direction, against gravity. Controls are made for one such direction.
   setUp(up) {
     this.up = up;
+    this.home = null;
     this.front = new THREE.Vector3(0, -1, 0).addScaledVector(up, up.y);
     if (this.front.length() < 0.1) // gravity is along y
       this.front.set(0, 0, 1);
@@ -34,9 +35,29 @@ export class Camera {
     this.controls.addEventListener("start", () => (this.flight = null));
   }
 
+  // Chooses the direction from which a body shows most of itself: its front or its side, and from higher up if it is flat.
+  suit(geometry) {
+    const { array } = geometry.attributes.position;
+    const extent = (axis) => {
+      let [least, most] = [Infinity, -Infinity];
+      for (let i = 0; i < array.length; i += 3) {
+        const x = array[i] * axis.x + array[i + 1] * axis.y + array[i + 2] * axis.z;
+        least = Math.min(least, x);
+        most = Math.max(most, x);
+      }
+      return most - least;
+    };
+    const { up, front, side } = this;
+    const [height, depth, width] = [up, front, side].map(extent);
+    const [main, other] = width >= depth ? [front, side] : [side, front];
+    const isFlat = width * depth > 2 * Math.max(width, depth) * height;
+    this.home = main.clone().addScaledVector(other, 0.35).addScaledVector(up, isFlat ? 1 : 0.3);
+  }
+
   direction(name) {
     const { up, front, side } = this;
-    return { home: front.clone().addScaledVector(side, 0.35).addScaledVector(up, 0.3), front: front.clone(), side: side.clone(),
+    const home = this.home || front.clone().addScaledVector(side, 0.35).addScaledVector(up, 0.3);
+    return { home: home.clone(), front: front.clone(), side: side.clone(),
       top: up.clone().addScaledVector(front, 1e-3) }[name].normalize();
   }
 

@@ -32,12 +32,16 @@ namespace Exemplar::Live
       { "grab", { true, 7, true, false, true } },   // shares, anchor, stiffness; on: hard
       { "move", { true, 3, false, false, false } }, // anchor
       { "release", { true, 0, false, false, false } },
+      { "put", { true, any_number, false, false, false } }, // 5 of a ball, 7 of a block
+      { "carry", { true, 3, false, false, false } },        // displacement of an obstacle
+      { "take away", { true, 0, false, false, false } },
       { "pin", { true, 0, false, true, false } },
       { "unpin", { true, 0, false, false, false } },
       { "handle", { true, 3, false, false, false } }, // displacement
       { "set", { true, 1, false, false, false } },
       { "tension", { true, 1, false, false, false } }, // of a region [Pa]
       { "weights", { false, any_number, false, false, false } },
+      { "energy", { true, 0, false, false, false } }, // a value of Examples/Energy
       { "gravity", { false, 3, false, false, false } },
       { "damping", { false, 2, false, false, false } },
       { "pause", { false, 0, false, false, true } },

@@ -7,6 +7,7 @@
 #include <exemplar/exemplar.h>
 #include <exemplar/live/export_gltf.h>
 #include <exemplar/live/keyed_shapes.h>
+#include <exemplar/live/rigid_parts.h>
 #include <exemplar/run/frames/raw_bytes.h>
 #include <exemplar/run/output/output_directory.h>
 #include <exemplar/surface/files/material_library.h>
@@ -128,57 +129,80 @@ namespace Exemplar::Live
       }
     };
 
-    /// The faces of a material, with vertices of their own: a vertex of the surface for each
-    /// texture point that it has there.
-    struct FacesOfMaterial
+    /// The vertices of a surface in its order, then copies of those that have several texture points, and the triangles of
+    /// each material, all on the same vertices.
+    class SharedVertices
     {
+    public:
       static constexpr unsigned int no_texture = static_cast<unsigned int>(-1);
 
-      std::vector<std::pair<unsigned int, unsigned int>> corners; ///< vertex, texture point
-      std::vector<std::uint32_t>                         indices;
-      std::map<std::pair<unsigned int, unsigned int>, std::uint32_t> numbers = {};
-
-      void
-      add(const unsigned int vertex, const unsigned int texture)
+      struct Vertex
       {
-        const auto number
-            = numbers.emplace(std::make_pair(vertex, texture), corners.size()).first->second;
-        if (number == corners.size())
-          corners.emplace_back(vertex, texture);
-        indices.push_back(number);
+        unsigned int number; ///< in the surface
+        unsigned int texture = no_texture;
+      };
+
+      explicit SharedVertices(const SurfaceMesh &surface)
+      {
+        for (unsigned int v = 0; v < surface.vertices.size(); ++v)
+          vertices.push_back({ v });
+        std::vector<unsigned int> polygons;
+        const TriangleSurface     triangles = triangulate(surface, &polygons);
+        const auto                names     = material_names(surface);
+        for (std::size_t t = 0; t < triangles.triangles.size(); ++t)
+          for (const unsigned int vertex : triangles.triangles[t])
+            indices[names[polygons[t]]].push_back(
+                number_of(vertex, texture_at(surface, polygons[t], vertex)));
       }
-    };
 
-    std::map<std::string, FacesOfMaterial>
-    faces_by_material(const SurfaceMesh &surface)
-    {
-      std::vector<unsigned int>              polygons;
-      const TriangleSurface                  triangles = triangulate(surface, &polygons);
-      const auto                             names     = material_names(surface);
-      std::map<std::string, FacesOfMaterial> result;
-      for (std::size_t t = 0; t < triangles.triangles.size(); ++t)
+      bool
+      have_texture() const
       {
-        const unsigned int face     = polygons[t];
-        FacesOfMaterial   &faces    = result[names[face]];
-        const auto        &vertices = surface.faces[face];
-        const bool         has_texture
-            = !surface.face_texture_points.empty() && !surface.face_texture_points[face].empty();
-        for (const unsigned int vertex : triangles.triangles[t])
+        return !copies.empty();
+      }
+
+      std::vector<Vertex>                               vertices;
+      std::map<std::string, std::vector<std::uint32_t>> indices; ///< by material
+
+    private:
+      static unsigned int
+      texture_at(const SurfaceMesh &surface, const unsigned int face, const unsigned int vertex)
+      {
+        if (surface.face_texture_points.empty() || surface.face_texture_points[face].empty())
+          return no_texture;
+        const auto &corners = surface.faces[face];
+        return surface.face_texture_points[face][std::find(corners.begin(), corners.end(), vertex)
+                                                 - corners.begin()];
+      }
+
+      /// The vertex with this texture point; the first one of each keeps the number of the surface.
+      std::uint32_t
+      number_of(const unsigned int vertex, const unsigned int texture)
+      {
+        if (texture == no_texture)
+          return vertex;
+        const auto [copy, is_new] = copies.emplace(std::make_pair(vertex, texture), vertex);
+        if (is_new && vertices[vertex].texture == no_texture)
+          vertices[vertex].texture = texture;
+        else if (is_new)
         {
-          const auto corner
-              = std::find(vertices.begin(), vertices.end(), vertex) - vertices.begin();
-          faces.add(vertex, has_texture ? surface.face_texture_points[face][corner]
-                                        : FacesOfMaterial::no_texture);
+          copy->second = vertices.size();
+          vertices.push_back({ vertex, texture });
         }
+        return copy->second;
       }
-      return result;
-    }
+
+      std::map<std::pair<unsigned int, unsigned int>, std::uint32_t> copies;
+    };
 
     class GltfMaker
     {
     public:
-      GltfMaker(const RunMotion &motion, const KeyedShapes &shapes, const fs::path &run)
-          : motion(motion), shapes(shapes), run(run)
+      GltfMaker(const RunMotion              &motion,
+                const KeyedShapes            &shapes,
+                const std::vector<RigidPart> &obstacles,
+                const fs::path               &run)
+          : motion(motion), shapes(shapes), obstacles(obstacles), run(run)
       {
         for (std::size_t i = 0; i < shapes.n_shapes(); ++i)
           names.push_back(fmt::format("shape {}", i + 1));
@@ -209,7 +233,14 @@ namespace Exemplar::Live
           nodes.push_back({ { "name", moving.name }, { "mesh", meshes.size() } });
           meshes.push_back(mesh_of(moving));
         }
-        document["animations"] = { animation(nodes.size()) };
+        const std::size_t n_moving = nodes.size();
+        for (std::size_t i = 0; i < obstacles.size(); ++i)
+        {
+          nodes[0]["children"].push_back(nodes.size());
+          nodes.push_back({ { "name", name_of_obstacle(i) }, { "mesh", meshes.size() } });
+          meshes.push_back(mesh_of(obstacles[i], name_of_obstacle(i)));
+        }
+        document["animations"] = { animation(n_moving) };
         document["nodes"]      = std::move(nodes);
         document["meshes"]     = std::move(meshes);
         for (const auto &[key, list] :
@@ -221,55 +252,54 @@ namespace Exemplar::Live
       }
 
       std::vector<std::string> notes;
+      std::size_t              n_copies = 0; ///< of vertices at seams of textures
 
     private:
       using Numbers = std::vector<float>;
 
       std::size_t
-      add_places(const Places          &places,
-                 const MovingSurface   &moving,
-                 const FacesOfMaterial &faces,
-                 const bool             with_bounds)
+      add_places(const Places         &places,
+                 const MovingSurface  &moving,
+                 const SharedVertices &shared,
+                 const bool            with_bounds)
       {
         Numbers numbers;
-        for (const auto &corner : faces.corners)
+        for (const auto &vertex : shared.vertices)
           for (unsigned int c = 0; c < 3; ++c)
-            numbers.push_back(static_cast<float>(places[moving.first_in_list + corner.first][c]));
+            numbers.push_back(static_cast<float>(places[moving.first_in_list + vertex.number][c]));
         return buffer.add_floats(numbers, "VEC3", 3, with_bounds, ViewTarget::attributes);
       }
 
+      /// A primitive without its triangles.
       Json
-      primitive_of(const MovingSurface &moving, const FacesOfMaterial &faces)
+      primitive_of(const MovingSurface &moving, const SharedVertices &shared)
       {
         const bool with_normals = !shapes.rest_normals.empty();
-        Json       primitive    = { { "indices", buffer.add_indices(faces.indices) } };
-        Json      &attributes   = primitive["attributes"];
-        attributes["POSITION"]  = add_places(shapes.rest, moving, faces, true);
+        Json       primitive;
+        Json      &attributes  = primitive["attributes"];
+        attributes["POSITION"] = add_places(shapes.rest, moving, shared, true);
         if (with_normals)
-          attributes["NORMAL"] = add_places(shapes.rest_normals, moving, faces, false);
-        const bool has_texture = std::any_of(
-            faces.corners.begin(), faces.corners.end(),
-            [](const auto &corner) { return corner.second != FacesOfMaterial::no_texture; });
-        if (has_texture)
-          attributes["TEXCOORD_0"] = add_texture_points(moving.surface, faces);
+          attributes["NORMAL"] = add_places(shapes.rest_normals, moving, shared, false);
+        if (shared.have_texture())
+          attributes["TEXCOORD_0"] = add_texture_points(moving.surface, shared);
         for (std::size_t i = 0; i < shapes.targets.size(); ++i)
         {
-          Json target = { { "POSITION", add_places(shapes.targets[i], moving, faces, true) } };
+          Json target = { { "POSITION", add_places(shapes.targets[i], moving, shared, true) } };
           if (with_normals)
-            target["NORMAL"] = add_places(shapes.target_normals[i], moving, faces, false);
+            target["NORMAL"] = add_places(shapes.target_normals[i], moving, shared, false);
           primitive["targets"].push_back(target);
         }
         return primitive;
       }
 
       std::size_t
-      add_texture_points(const SurfaceMesh &surface, const FacesOfMaterial &faces)
+      add_texture_points(const SurfaceMesh &surface, const SharedVertices &shared)
       {
         Numbers numbers;
-        for (const auto &corner : faces.corners)
+        for (const auto &vertex : shared.vertices)
         {
-          const bool is_there = corner.second != FacesOfMaterial::no_texture;
-          const auto point    = is_there ? surface.texture_points[corner.second]
+          const bool is_there = vertex.texture != SharedVertices::no_texture;
+          const auto point    = is_there ? surface.texture_points[vertex.texture]
                                          : std::array<double, 2>{ { 0., 1. } };
           numbers.push_back(static_cast<float>(point[0]));
           numbers.push_back(static_cast<float>(1. - point[1])); // down in glTF
@@ -291,9 +321,13 @@ namespace Exemplar::Live
           mesh["extras"]["targetNames"] = names;
           mesh["weights"]               = Numbers(names.size(), 0.F);
         }
-        for (const auto &[name, faces] : faces_by_material(moving.surface))
+        const SharedVertices shared(moving.surface);
+        const Json           on_all = primitive_of(moving, shared);
+        n_copies += shared.vertices.size() - moving.surface.vertices.size();
+        for (const auto &[name, indices] : shared.indices)
         {
-          Json primitive = primitive_of(moving, faces);
+          Json primitive       = on_all;
+          primitive["indices"] = buffer.add_indices(indices);
           if (!name.empty() || !moving.is_of_body) // what is worn may be seen from inside
           {
             primitive["material"] = materials.size();
@@ -305,6 +339,45 @@ namespace Exemplar::Live
           mesh["primitives"].push_back(primitive);
         }
         return mesh;
+      }
+
+      std::string
+      name_of_obstacle(const std::size_t i) const
+      {
+        const auto &names = motion.names_of_obstacles;
+        return names.size() == obstacles.size() ? names[i] : fmt::format("obstacle {}", i + 1);
+      }
+
+      Json
+      mesh_of(const RigidPart &obstacle, const std::string &name)
+      {
+        Numbers                    places;
+        std::vector<std::uint32_t> indices;
+        for (const auto &x : obstacle.vertices)
+          for (unsigned int c = 0; c < 3; ++c)
+            places.push_back(static_cast<float>(x[c]));
+        for (const auto &triangle : obstacle.triangles)
+          indices.insert(indices.end(), triangle.begin(), triangle.end());
+        Json primitive = { { "indices", buffer.add_indices(indices) },
+                           { "material", material_of_obstacles() } };
+        primitive["attributes"]["POSITION"]
+            = buffer.add_floats(places, "VEC3", 3, true, ViewTarget::attributes);
+        return { { "name", name }, { "primitives", { primitive } } };
+      }
+
+      /// The number of the one material of all obstacles: grey, seen from both sides.
+      std::size_t
+      material_of_obstacles()
+      {
+        if (!grey)
+        {
+          grey = materials.size();
+          materials.push_back({ { "name", "obstacles" }, { "doubleSided", true } });
+          materials.back()["pbrMetallicRoughness"] = { { "baseColorFactor", { 0.5, 0.5, 0.5, 1. } },
+                                                       { "metallicFactor", 0. },
+                                                       { "roughnessFactor", 0.8 } };
+        }
+        return *grey;
       }
 
       Json
@@ -396,6 +469,24 @@ namespace Exemplar::Live
           add_sampler(weights, "SCALAR", 1);
         for (std::size_t node = 2; !weights.empty() && node < n_nodes; ++node)
           add_channel(2, node, "weights");
+        for (std::size_t i = 0; i < obstacles.size(); ++i)
+        {
+          Numbers turns, places, sizes;
+          for (const RigidPart::Key &key : obstacles[i].keys)
+          {
+            turns.insert(turns.end(), key.rotation.begin(), key.rotation.end());
+            places.insert(places.end(), key.translation.begin(), key.translation.end());
+            sizes.insert(sizes.end(), 3, key.size);
+          }
+          add_sampler(turns, "VEC4", 4);
+          add_channel(result["samplers"].size() - 1, n_nodes + i, "rotation");
+          add_sampler(places, "VEC3", 3);
+          add_channel(result["samplers"].size() - 1, n_nodes + i, "translation");
+          if (std::find(sizes.begin(), sizes.end(), 0.F) == sizes.end())
+            continue; // it is always there
+          add_sampler(sizes, "VEC3", 3);
+          add_channel(result["samplers"].size() - 1, n_nodes + i, "scale");
+        }
         return result;
       }
 
@@ -422,13 +513,15 @@ namespace Exemplar::Live
         return file;
       }
 
-      const RunMotion         &motion;
-      const KeyedShapes       &shapes;
-      const fs::path           run;
-      std::vector<std::string> names; ///< of the targets
-      GltfBuffer               buffer;
+      const RunMotion              &motion;
+      const KeyedShapes            &shapes;
+      const std::vector<RigidPart> &obstacles;
+      const fs::path                run;
+      std::vector<std::string>      names; ///< of the targets
+      GltfBuffer                    buffer;
       Json materials = Json::array(), textures = Json::array(), images = Json::array();
       std::map<fs::path, std::size_t> texture_of;
+      std::optional<std::size_t>      grey; ///< the material of obstacles
     };
 
     constexpr std::size_t supported_attributes = 8; ///< of targets, by all viewers
@@ -440,18 +533,24 @@ namespace Exemplar::Live
     require_gltf(options.file);
     const RunMotion   motion = motion_of_run(options.run);
     const KeyedShapes shapes = keyed_shapes(motion, options.n_shapes, options.with_normals);
-    GltfMaker         maker(motion, shapes, options.run);
-    const std::string bytes = maker.make();
     GltfReport        report;
+    report.warnings = motion.notes;
+    const std::vector<RigidPart> obstacles
+        = rigid_obstacles(motion, default_error_in_contact * shapes.diagonal, report.warnings);
+    GltfMaker         maker(motion, shapes, obstacles, options.run);
+    const std::string bytes      = maker.make();
     bool              is_clamped = false;
     report.n_frames              = motion.frames.size();
     report.n_vertices            = motion.rest.size();
+    report.n_copies              = maker.n_copies;
     report.n_examples            = shapes.n_examples;
     report.n_shapes              = shapes.n_shapes();
     report.n_bytes               = bytes.size();
     report.error                 = shapes.error;
     report.relative_error        = shapes.error / shapes.diagonal;
-    report.warnings              = motion.notes;
+    report.n_obstacles           = obstacles.size();
+    if (motion.has_contact)
+      report.crossings = crossings_of(motion, shapes);
     report.warnings.insert(report.warnings.end(), maker.notes.begin(), maker.notes.end());
     if (const std::size_t n = shapes.targets.size(); n > supported_attributes)
       report.warnings.push_back(

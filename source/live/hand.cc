@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/live/hand.h>
+#include <exemplar/run/problem/session_form.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ namespace Exemplar::Live
     /// Distance below which a pull has reached its pointer, over the diameter of the body.
     constexpr double relative_nearness = 1e-5;
 
-    constexpr std::size_t max_pins = 100, max_springs = 10;
+    constexpr std::size_t max_obstacles = 20, max_pins = 100, max_springs = 10;
 
     dealii::Point<3>
     place_of(const Problem &problem, const unsigned int node)
@@ -61,19 +62,31 @@ namespace Exemplar::Live
       return before_next_step(problem, pull.moving, pull.of, {}, { way[0], way[1], way[2] });
     }
 
-    /// The event that holds nodes where they are.
+    /// The event that holds nodes where they are: of a shell also slopes, as places of the normals' tips.
     SessionEvent
     hold_here(const Problem                   &problem,
               const std::string               &name,
               const std::vector<unsigned int> &nodes)
     {
+      const FESpace      &fe_space  = problem.body.fe_space;
+      const State        &state     = problem.state;
+      const auto          held      = problem.held_slopes(); // none but in a shell
+      const Vector        positions = held.empty()
+                                          ? state.positions
+                                          : fe_space.with_tips(state.positions, held, state.history);
       std::vector<double> displacements;
       for (const unsigned int node : nodes)
-      {
-        const auto moved = place_of(problem, node) - problem.body.mesh.get_nodes()[node];
-        displacements.insert(displacements.end(), { moved[0], moved[1], moved[2] });
-      }
+        for (unsigned int c = 0; c < 3; ++c)
+          displacements.push_back(positions[3 * node + c] - fe_space.rest_position(node)[c]);
       return before_next_step(problem, "hold", name, nodes, displacements);
+    }
+
+    /// Nodes with the slopes of a shell on edges between them.
+    std::vector<unsigned int>
+    with_slopes(const Problem &problem, std::vector<unsigned int> nodes)
+    {
+      const FESpace &fe_space = problem.body.fe_space;
+      return fe_space.is_shell() ? fe_space.numbering().with_middles(std::move(nodes)) : nodes;
     }
 
     bool
@@ -92,6 +105,18 @@ namespace Exemplar::Live
                                  [&](const unsigned int node) { return !is_free(problem, node); }),
                   nodes.end());
       return nodes;
+    }
+
+    /// Throws unless there is such an obstacle.
+    void
+    require_obstacle(const std::string &name, const Problem &problem)
+    {
+      const auto &obstacles = problem.actions.obstacles;
+      if (obstacles == nullptr
+          || std::none_of(obstacles->all.begin(), obstacles->all.end(),
+                          [&](const Obstacle &obstacle)
+                          { return obstacle.name() == name && !obstacle.has_left(); }))
+        throw std::invalid_argument("there is no such obstacle");
     }
 
     std::string
@@ -135,6 +160,12 @@ namespace Exemplar::Live
       throw std::invalid_argument("there is no such pin");
     if (command.type == "handle")
       return move_handle(command, problem);
+    if (command.type == "put")
+      return { put(command, problem) };
+    if (command.type == "carry")
+      return carry(command, problem);
+    if (command.type == "take away")
+      return take_away(command, problem);
     if (command.type == "weights")
       return { held.weights.want(command.numbers, problem) };
     return { set(command, problem) };
@@ -166,10 +197,78 @@ namespace Exemplar::Live
       pull.at               = is_there ? pull.to : pull.at + pull.way;
       events.push_back(moved(problem, pull));
     };
-    for (auto *pulls : { &held.pulls, &held.handles })
+    for (auto *pulls : { &held.pulls, &held.handles, &held.obstacles })
       for (auto &entry : *pulls)
         come_nearer(entry.second);
     return events;
+  }
+
+  Session
+  Hand::stop_handles(const Held &before, const Problem &problem)
+  {
+    Session    events;
+    const auto stop
+        = [&](std::map<std::string, Pull> &pulls, const std::map<std::string, Pull> &earlier)
+    {
+      for (auto &[name, pull] : pulls)
+      {
+        const auto found = earlier.find(name);
+        pull.at = pull.to = found == earlier.end() ? pull.from : found->second.at;
+        pull.way          = {};
+        events.push_back(moved(problem, pull));
+      }
+    };
+    stop(held.handles, before.handles);
+    stop(held.obstacles, before.obstacles);
+    return events;
+  }
+
+  SessionEvent
+  Hand::put(const Command &command, const Problem &problem)
+  {
+    const std::size_t  n = command.numbers.size();
+    const SessionEvent event
+        = before_next_step(problem, n == 5 ? "ball" : "block", command.name, {}, command.numbers);
+    if (n != 5 && n != 7)
+      throw std::invalid_argument("an obstacle is a ball of 5 numbers or a block of 7");
+    check_place(command.numbers, 0);
+    if (n == 7)
+      check_place(command.numbers, 3);
+    const ObstacleParameters obstacle = obstacle_of(event).value();
+    try
+    {
+      if (problem.parameters.obstacles.named.size() >= max_obstacles)
+        throw std::invalid_argument("there are as many obstacles as may be");
+      obstacle.check();
+      if (!problem.is_clear(obstacle))
+        throw std::invalid_argument("the body is there, or too near. Put it farther away");
+    }
+    catch (const UserError &refusal)
+    {
+      throw std::invalid_argument(refusal.what());
+    }
+    return event;
+  }
+
+  Session
+  Hand::carry(const Command &command, const Problem &problem)
+  {
+    check_place(command.numbers, 0);
+    require_obstacle(command.name, problem);
+    const auto pull
+        = held.obstacles
+              .insert({ command.name, { "carry", "take away", command.name, {}, {}, {} } })
+              .first;
+    pull->second.to = point_of(command.numbers);
+    return {};
+  }
+
+  Session
+  Hand::take_away(const Command &command, const Problem &problem)
+  {
+    require_obstacle(command.name, problem);
+    held.obstacles.erase(command.name);
+    return { before_next_step(problem, "take away", command.name) };
   }
 
   double
@@ -231,7 +330,7 @@ namespace Exemplar::Live
     if (nodes.empty())
       throw std::invalid_argument("this part of the body is held");
     held.pulls[name] = { "shift", "let go", of_hand(name), place, place, place };
-    return { hold_here(problem, of_hand(name), nodes) };
+    return { hold_here(problem, of_hand(name), with_slopes(problem, nodes)) };
   }
 
   void
@@ -279,7 +378,7 @@ namespace Exemplar::Live
     if (nodes.empty())
       throw std::invalid_argument("all of this is held already");
     held.pins[command.name] = nodes;
-    return { hold_here(problem, of_pin(command.name), nodes) };
+    return { hold_here(problem, of_pin(command.name), with_slopes(problem, nodes)) };
   }
 
   Session
@@ -298,8 +397,11 @@ namespace Exemplar::Live
         {
           std::vector<unsigned int> nodes = all.nodes(handle);
           nodes.erase(std::remove_if(nodes.begin(), nodes.end(),
-                                     [&](const unsigned int node)
-                                     { return node >= problem.body.mesh.n_nodes(); }),
+                                     [&](const unsigned int node) // middles follow their ends
+                                     {
+                                       return !problem.body.mesh.is_shell()
+                                              && node >= problem.body.mesh.n_nodes();
+                                     }),
                       nodes.end());
           events.push_back(hold_here(problem, command.name, nodes));
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/exemplar.h>
 #include <exemplar/live/keyed_shapes.h>
+#include <exemplar/live/rigid_parts.h>
 #include <exemplar/mesh/mesh_arrays.h>
 #include <exemplar/mesh/rigid_motion.h>
 #include <exemplar/surface/shape/triangle_surface.h>
@@ -42,17 +43,9 @@ namespace Exemplar::Live
     ShapeKey
     key_of(const RigidMotion &motion, const ShapeKey *const before)
     {
-      const AxisAngle       turn = axis_and_angle(motion.rotation);
-      const double          sine = std::sin(0.5 * turn.angle);
-      std::array<double, 4> q{ { sine * turn.axis[0], sine * turn.axis[1], sine * turn.axis[2],
-                                 std::cos(0.5 * turn.angle) } };
-      // of q and -q the one from which players turn the short way
-      double product = 0.;
-      for (unsigned int i = 0; before != nullptr && i < 4; ++i)
-        product += q[i] * static_cast<double>(before->rotation[i]);
       ShapeKey key;
-      for (unsigned int i = 0; i < 4; ++i)
-        key.rotation[i] = static_cast<float>(product < 0. ? -q[i] : q[i]);
+      key.rotation
+          = quaternion_of(motion.rotation, before != nullptr ? &before->rotation : nullptr);
       const Point origin = motion(Point());
       for (unsigned int c = 0; c < 3; ++c)
         key.translation[c] = static_cast<float>(origin[c]);
@@ -288,16 +281,28 @@ namespace Exemplar::Live
     {
       double error = 0.;
       for (std::size_t frame = 0; frame < frames.size(); ++frame)
-        for (std::size_t v = 0; v < shapes.rest.size(); ++v)
-        {
-          Tensor1 x = shapes.rest[v];
-          for (std::size_t i = 0; i < shapes.targets.size(); ++i)
-            x += double(shapes.keys[frame].weights[i]) * shapes.targets[i][v];
-          error = std::max(error, placed(shapes.keys[frame], x).distance(frames[frame][v]));
-        }
+      {
+        const Places shown = shapes.places(frame);
+        for (std::size_t v = 0; v < shown.size(); ++v)
+          error = std::max(error, shown[v].distance(frames[frame][v]));
+      }
       return error;
     }
   } // namespace
+
+  Places
+  KeyedShapes::places(const std::size_t frame) const
+  {
+    Places result;
+    for (std::size_t v = 0; v < rest.size(); ++v)
+    {
+      Tensor1 x = rest[v];
+      for (std::size_t i = 0; i < targets.size(); ++i)
+        x += double(keys[frame].weights[i]) * targets[i][v];
+      result.push_back(placed(keys[frame], x));
+    }
+    return result;
+  }
 
   KeyedShapes
   keyed_shapes(const RunMotion                   &motion,
@@ -348,7 +353,9 @@ namespace Exemplar::Live
       left.subtract(part);
       keep(part);
     }
-    for (const Part &part : shapes_of(left, n_shapes, default_error_of_shapes * shapes.diagonal))
+    const double tolerance
+        = motion.has_contact ? default_error_in_contact : default_error_of_shapes;
+    for (const Part &part : shapes_of(left, n_shapes, tolerance * shapes.diagonal))
       keep(part);
     shapes.error = error_of(shapes, motion.frames);
     return shapes;

@@ -5,6 +5,7 @@
 #include <exemplar/exemplar.h>
 #include <exemplar/live/export_page.h>
 #include <exemplar/live/server.h>
+#include <exemplar/prm/assignments.h>
 
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
@@ -106,6 +107,24 @@ Exit status:
                          { return other.compare(0, key.size(), key) == 0; }))
           overrides.push_back(setting);
       }
+      return overrides;
+    }
+
+    /// Overrides, and the scaled energy unless the scene or they choose one: with it a body that is dragged takes as
+    /// much of a pose as the drag asks for, so that hands see the poses.
+    std::vector<std::string>
+    with_leading_examples(std::vector<std::string> overrides, const SceneFile &scene)
+    {
+      const std::string             key       = "Examples/Energy";
+      const SceneParameters        &given     = scene.get_parameters();
+      const std::string             begin     = key + "=";
+      const std::vector<Assignment> in_file   = read_assignments(scene.get_text(), given.name);
+      const bool                    is_chosen = find_assignment(in_file, key) != nullptr
+                             || std::any_of(overrides.begin(), overrides.end(),
+                                            [&](const std::string &other)
+                                            { return other.compare(0, begin.size(), begin) == 0; });
+      if (!is_chosen && given.examples.in_use() && given.examples.weights != WeightRule::prescribed)
+        overrides.push_back(begin + name_of_energy(ExampleEnergy::scaled));
       return overrides;
     }
 
@@ -268,6 +287,7 @@ Exit status:
       const SceneFile          given(arguments.shown.front(), overrides);
       const unsigned int       axis
           = axis_of_up(arguments.up, given.get_parameters().mesh.surface_file());
+      overrides = with_leading_examples(std::move(overrides), given);
       if (arguments.floor)
         overrides = with_floor(overrides, given, *arguments.floor, axis);
       const SceneFile scene(arguments.shown.front(), overrides);
@@ -285,7 +305,12 @@ Exit status:
         [&](std::string text)
         { boost::asio::post(context, [&audience, text] { audience.tell(text); }); },
         [&](Welcome welcome)
-        { boost::asio::post(context, [&audience, welcome] { audience.welcome_again(welcome); }); }
+        { boost::asio::post(context, [&audience, welcome] { audience.welcome_again(welcome); }); },
+        [&](Welcome welcome, std::vector<Bytes> binaries)
+        {
+          boost::asio::post(context, [&audience, welcome, binaries]
+                            { audience.show_obstacles(welcome, binaries); });
+        }
       };
       Simulation simulation(stage, mailbox, outbox,
                             up_of(scene.get_parameters().loads.gravity, axis));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rings on vertices that are held, and the line of a pull. Both have dark borders, as they are seen on any colour.
+// Outlines of handles, rings on vertices that are pinned, and the line of a pull. All have dark borders, as they are seen on any colour.
 import * as THREE from "./three/build/three.module.js";
+import { Outline } from "./outline.js";
 
 const PIXELS = 64;
 
@@ -36,7 +37,10 @@ function spaced(vertices, vertexAt, distance) {
 }
 
 export class Marks {
-  constructor(colours) {
+  // `names`: the element that holds the names of handles
+  constructor(colours, names) {
+    Object.assign(this, { colours, names });
+    this.outlines = [];
     this.group = new THREE.Group();
     this.rings = { handle: ring(colours.handle, colours.edge, false), pin: ring(colours.pin, colours.edge, true) };
     this.spring = new THREE.Group();
@@ -52,11 +56,23 @@ export class Marks {
   // `groups` is [{name, kind, vertices}], at the places and normals of a geometry.
   set(groups, geometry, distance) {
     this.group.children.slice().forEach((child) => {
-      child.geometry.dispose();
+      child.geometry && child.geometry.dispose();
       this.group.remove(child);
     });
+    this.outlines.forEach((outline) => outline.dispose());
+    this.outlines = [];
     const vertexAt = (i) => new THREE.Vector3().fromArray(geometry.attributes.position.array, 3 * i);
     for (const { name, kind, vertices } of groups) {
+      if (kind === "handle") {
+        const outline = new Outline({ name, vertices }, geometry, { colour: this.colours.handle, edge: this.colours.edge }, 0.1 * distance);
+        if (!outline.isEmpty) { // else all of a part of the body is held, which has rings
+          this.group.add(outline.group);
+          this.names.append(outline.label);
+          this.outlines.push(outline);
+          continue;
+        }
+        outline.dispose();
+      }
       const shown = spaced(vertices, vertexAt, distance);
       const own = new THREE.BufferGeometry();
       own.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * shown.length), 3));
@@ -74,7 +90,8 @@ export class Marks {
   // Places rings a little above the surface, which would hide half of them.
   move(geometry) {
     const { position, normal } = geometry.attributes;
-    for (const { geometry: own, userData } of this.group.children) {
+    this.outlines.forEach((outline) => outline.move(geometry));
+    for (const { geometry: own, userData } of this.group.children.filter(({ isPoints }) => isPoints)) {
       const { array } = own.attributes.position;
       userData.shown.forEach((i, k) => {
         for (let c = 0; c < 3; ++c)
@@ -84,10 +101,15 @@ export class Marks {
     }
   }
 
-  // Enlarges the rings of the handle under the pointer.
+  // Enlarges the line of the handle under the pointer.
   stress(name) {
-    for (const { material, userData } of this.group.children)
+    this.outlines.forEach((outline) => outline.stress(outline.group.userData.name === name));
+    for (const { material, userData } of this.group.children.filter(({ isPoints }) => isPoints))
       material.size = userData.kind === "handle" && userData.name === name ? 20 : 14;
+  }
+
+  placeNames(onPage) {
+    this.outlines.forEach((outline) => outline.place(onPage));
   }
 
   // Draws the line of a pull, of the same width on screen wherever the camera is.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/live/obstacle_frames.h>
 
+#include <algorithm>
+
 namespace Exemplar::Live
 {
   SpaceVector3
@@ -29,13 +31,39 @@ namespace Exemplar::Live
 
   ObstacleFrames::ObstacleFrames(const Problem &problem, const SpaceVector3 &up)
   {
+    names                                       = present(problem);
     const Obstacles *const            obstacles = problem.actions.obstacles.get();
     const std::optional<unsigned int> floor     = Floor(problem, up).obstacle;
     if (obstacles == nullptr || obstacles->all.size() == (floor ? 1 : 0))
       return;
     picture.emplace(*obstacles, problem.body.mesh.diameter(), 1., floor);
+    const SurfaceMesh &mesh = picture->surface();
+    for (const std::string &name : mesh.group_names)
+    {
+      const auto          &all   = obstacles->all;
+      const auto           of    = std::find_if(all.begin(), all.end(),
+                                                [&](const Obstacle &o) { return o.name() == name; });
+      const ObstacleShape &shape = of->shape();
+      list.push_back(
+          { name, 0, shape.half_sizes.has_value() || shape.half_spaces.empty(), of->has_left() });
+    }
+    // as BodySurface counts them: what is a triangle already is there twice
+    for (std::size_t face = 0; face < mesh.faces.size(); ++face)
+      list[mesh.face_groups[face]].n_triangles
+          += mesh.faces[face].size() == 3 ? 2 : mesh.faces[face].size() - 2;
     at_start = places(problem);
     surface  = BodySurface(at_start.size(), picture->surface().faces);
+  }
+
+  std::vector<std::string>
+  ObstacleFrames::present(const Problem &problem)
+  {
+    std::vector<std::string> names;
+    if (problem.actions.obstacles != nullptr)
+      for (const Obstacle &obstacle : problem.actions.obstacles->all)
+        if (!obstacle.has_left())
+          names.push_back(obstacle.name());
+    return names;
   }
 
   std::vector<SurfaceMesh::Vertex>

@@ -11,8 +11,23 @@ export class Obstacles {
     this.mesh.frustumCulled = false;
   }
 
+  // Places of another set of obstacles are left out: those of these follow.
   setPlaces(places) {
-    this.geometry.attributes.position.array.set(places);
-    this.geometry.attributes.position.needsUpdate = true;
+    const { position } = this.geometry.attributes;
+    if (places.length !== position.array.length)
+      return;
+    position.array.set(places);
+    position.needsUpdate = true;
+    this.geometry.boundingSphere = null; // for the ray
+  }
+
+  // The first hit of a ray: {name, point, distance}; null: none. `list`: {name, triangles} of each obstacle.
+  hit(caster, list) {
+    const hit = this.geometry.index.count > 0 ? caster.intersectObject(this.mesh)[0] : null;
+    if (!hit)
+      return null;
+    let end = 0;
+    const found = list.find(({ triangles }) => hit.faceIndex < (end += triangles));
+    return found ? { name: found.name, point: hit.point, distance: hit.distance } : null;
   }
 }

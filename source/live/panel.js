@@ -83,6 +83,7 @@ export class Panel {
     find("colour").value = state.colour;
     state.pins.forEach(({ name }) => this.sent.delete(name));
     this.showPins(state.pins);
+    this.showObstacles(state.obstacles.filter(({ there }) => there));
   }
 
   // Something was refused: nothing is as it was asked for.
@@ -144,16 +145,26 @@ export class Panel {
   }
 
   showPins(pins) {
-    const names = pins.map(({ name }) => name).join("|");
-    if (names === this.shownPins)
+    this.showList("pins", pins, ({ name }) => ({ text: `pin ${name}`, action: "let go", label: `let go of pin ${name}`, message: { type: "unpin", name } }));
+  }
+
+  showObstacles(obstacles) {
+    this.showList("obstacles", obstacles, ({ name }) => ({ text: name, action: "remove", label: `remove ${name}`, message: { type: "take away", name } }));
+  }
+
+  // A list of what a button ends.
+  showList(id, all, itemOf) {
+    const names = all.map(({ name }) => name).join("|");
+    if (find(id).dataset.names === names)
       return; // so that a button is not made anew while it is pressed
-    this.shownPins = names;
-    find("pins").replaceChildren(...pins.map(({ name }) => {
+    find(id).dataset.names = names;
+    find(id).replaceChildren(...all.map((one) => {
+      const { text, action, label, message } = itemOf(one);
       const item = document.createElement("li");
-      const button = Object.assign(document.createElement("button"), { textContent: "let go" });
-      button.setAttribute("aria-label", `let go of pin ${name}`);
-      button.onclick = () => this.send({ type: "unpin", name });
-      item.append(`pin ${name}`, button);
+      const button = Object.assign(document.createElement("button"), { textContent: action });
+      button.setAttribute("aria-label", label);
+      button.onclick = () => this.send(message);
+      item.append(text, button);
       return item;
     }));
   }

@@ -4,7 +4,7 @@
 const NAME = "pointer"; // of the one spring that a page pulls by
 
 export class Pointer {
-  // `wants`: tool(): "spring", "hard" or "pin"; strength(); mayAct(); grabRadius(); handleAt(corners); onPin(vertices); onBrush(vertices); onPull()
+  // `wants`: obstacleAt(event): {name, shift, point} or null; tool(): "spring", "hard" or "pin"; strength(); mayAct(); grabRadius(); handleAt(corners); onPin(vertices); onBrush(vertices); onPull()
   constructor(view, connection, wants) {
     Object.assign(this, { view, connection }, wants);
     this.sequence = 0;
@@ -26,11 +26,16 @@ export class Pointer {
       return this.letGo(); // both fingers are the view's from now on
     if (event.button !== 0 || this.held || event.ctrlKey || event.shiftKey || !this.mayAct() || (event.pointerType === "touch" && !event.isPrimary))
       return;
-    const hit = this.view.pick(event);
-    if (!hit)
+    const obstacle = this.obstacleAt(event);
+    const hit = obstacle ? null : this.view.pick(event);
+    if (!hit && !obstacle)
       return;
     this.view.controls.enabled = false; // which hears of it after this
     this.view.canvas.setPointerCapture(event.pointerId);
+    if (obstacle) {
+      this.held = { kind: "obstacle", obstacle, shift: obstacle.shift, id: event.pointerId, from: obstacle.point, target: obstacle.point, changed: false };
+      return this.show("pull");
+    }
     const corners = this.view.body.corners(hit.triangle);
     const handle = this.tool() === "pin" ? null : this.handleAt(corners);
     const kind = handle ? "handle" : this.tool();
@@ -77,6 +82,12 @@ export class Pointer {
       return this.hover();
     if (held.kind === "pin")
       return;
+    if (held.kind === "obstacle") {
+      if (held.changed)
+        this.connection.send({ type: "carry", name: held.obstacle.name, numbers: this.shiftOf(held).toArray() });
+      held.changed = false;
+      return;
+    }
     const point = view.body.pointOf(held.hit);
     view.marks.showSpring(point, held.target, view.eye.camera);
     view.showPatch(held.kind === "handle" ? null : point, this.radius());
@@ -105,12 +116,13 @@ export class Pointer {
     }
     if (begin < this.rest)
       return;
-    const hit = view.pick(over);
+    const obstacle = this.obstacleAt(over);
+    const hit = obstacle ? null : view.pick(over);
     const handle = hit && this.tool() !== "pin" ? this.handleAt(view.body.corners(hit.triangle)) : null;
     this.rest = performance.now() + 4 * (performance.now() - begin);
     view.showPatch(hit && !handle ? hit.point : null, this.radius());
     view.marks.stress(handle ? handle.name : null);
-    this.show(handle ? "handle" : hit ? (this.tool() === "pin" ? "brush" : "body") : "beside");
+    this.show(handle || obstacle ? "handle" : hit ? (this.tool() === "pin" ? "brush" : "body") : "beside");
   }
 
   // A brush touches what is right below it.
@@ -145,6 +157,8 @@ export class Pointer {
     this.drop();
     if (held.kind === "pin")
       this.onPin([...held.brush]);
+    else if (held.kind === "obstacle")
+      held.obstacle.of.shift = this.shiftOf(held).toArray(); // until the server says so
     else {
       if (held.kind === "handle")
         held.handle.shift = this.shiftOf(held); // until the server says so

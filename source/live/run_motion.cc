@@ -82,6 +82,15 @@ namespace Exemplar::Live
       all.insert(all.end(), places.begin(), places.end());
     }
 
+    Places
+    points_of(const std::vector<double> &numbers)
+    {
+      Places places;
+      for (std::size_t i = 0; i < numbers.size(); i += 3)
+        places.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+      return places;
+    }
+
     /// The weights of statistics.csv.
     struct WeightTable
     {
@@ -141,7 +150,11 @@ namespace Exemplar::Live
             parameters(scene.get_parameters()), axis(make_time_axis(parameters)),
             table(weights_in(files.statistics())), example_names(names_in(files.summary()))
       {
-        motion.z_is_up = playback_of(parameters, axis).z_is_up;
+        motion.z_is_up     = playback_of(parameters, axis).z_is_up;
+        motion.has_contact = !parameters.obstacles.empty()
+                             || (parameters.contact.self || parameters.contact.bodies);
+        for (const ObstacleParameters &obstacle : parameters.obstacles.named)
+          motion.names_of_obstacles.push_back(obstacle.name);
       }
 
       RunMotion
@@ -171,6 +184,8 @@ namespace Exemplar::Live
       read_boundary();
       void
       add_surface(const std::string &carried, const fs::path &folder);
+      void
+      add_obstacles_of_cache(const FrameFormat &format);
       void
       add_frame(unsigned int step, double time);
       void
@@ -281,6 +296,22 @@ namespace Exemplar::Live
       }
       append(motion.rest, scaled(moving.surface.vertices, scale, file));
       motion.surfaces.push_back(std::move(moving));
+      if (carried.empty() && !parameters.obstacles.empty())
+        add_obstacles_of_cache(*format);
+    }
+
+    /// The obstacles that the run has written beside the body.
+    void
+    RunReader::add_obstacles_of_cache(const FrameFormat &format)
+    {
+      const fs::path    file = files.directory / format.animation_name(name_of_obstacles);
+      const SurfaceMesh rest = shape("rest", name_of_obstacles);
+      require_run_file(file);
+      const auto cache = open_point_cache(file.string(), 1., rest,
+                                          (files.directory / "rest_obstacles.obj").string());
+      motion.obstacles = rest.faces;
+      for (std::size_t k = 0; k < std::min(cache->get_times().size(), motion.frames.size()); ++k)
+        motion.obstacle_frames.push_back(scaled(cache->sample(k), parameters.mesh.scale, file));
     }
 
     void
@@ -384,6 +415,12 @@ namespace Exemplar::Live
           throw UserError(frame.file.string() + " has other nodes than the first frame.");
         add_frame(*step, frame.time);
         motion.frames.push_back(of_nodes(places));
+        if (!frame.obstacles.empty())
+        {
+          if (motion.obstacles.empty())
+            motion.obstacles = polygons_in(frame.obstacles);
+          motion.obstacle_frames.push_back(points_of(places_in(frame.obstacles)));
+        }
       }
       std::vector<std::size_t> kept;
       for (std::size_t i = 0; i < table.names.size(); ++i)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 namespace Exemplar::Live
@@ -103,6 +104,26 @@ namespace Exemplar::Live
   {
   }
 
+  namespace
+  {
+    SessionEvent
+    event_of_energy(const std::string &name, const Problem &problem)
+    {
+      const std::optional<ExampleEnergy> energy = energy_of_name(name);
+      if (!energy)
+        throw std::invalid_argument("there is no such energy");
+      try
+      {
+        problem.check_energy(*energy);
+      }
+      catch (const UserError &refusal)
+      {
+        throw std::invalid_argument(refusal.what());
+      }
+      return before_next_step(problem, "energy", name);
+    }
+  } // namespace
+
   SessionEvent
   Settings::event_of(const Command &command, const Problem &problem) const
   {
@@ -120,6 +141,8 @@ namespace Exemplar::Live
       }
       return before_next_step(problem, "tension", command.name, {}, command.numbers);
     }
+    if (command.type == "energy")
+      return event_of_energy(command.name, problem);
     const auto bound = bounds.find(command.name);
     if (command.type != "set" || bound == bounds.end())
       throw std::invalid_argument("this cannot be set");

@@ -19,6 +19,9 @@ namespace Exemplar::Live
       return fmt::format("pose {}", pose);
     }
 
+    /// Colours span at least as much as this strain makes, so that the rounding of a body at rest is not seen.
+    constexpr double least_strain = 1e-4;
+
     /// Lengths of the vectors of a field of nodes at the vertices.
     std::vector<double>
     lengths(const Vector &field, const BodySurface &surface)
@@ -72,7 +75,7 @@ namespace Exemplar::Live
     binaries.push_back(
         skin.beside(frame_message({}, surface, problem.state.positions), problem.state.positions));
     return { scene_text(stage, hand, surface, skin, up),
-             state_text(stage, hand, surface, wish), binaries };
+             state_text(stage, hand, surface, obstacles, wish), binaries };
   }
 
   void
@@ -88,6 +91,7 @@ namespace Exemplar::Live
       const auto until  = is_active ? pace.get_due() : Pace::Clock::now() + std::chrono::seconds(1);
       for (const Command &command : mailbox.take(!is_due, until))
         obey(command);
+      show_obstacles();
       if (state_is_new)
         show_state();
       if (is_due)
@@ -143,7 +147,8 @@ namespace Exemplar::Live
   {
     const bool begins
         = !hand.pulls()
-          && (command.type == "grab" || command.type == "pin" || command.type == "unpin");
+          && (command.type == "grab" || command.type == "pin" || command.type == "unpin"
+              || command.type == "put" || command.type == "take away");
     const Hand::Held before = hand.get_held();
     try
     {
@@ -178,8 +183,9 @@ namespace Exemplar::Live
   void
   Simulation::make_step()
   {
-    const auto  begin = Pace::now();
-    std::string failure;
+    const auto       begin  = Pace::now();
+    const Hand::Held before = hand.get_held();
+    std::string      failure;
     try
     {
       stage.act(hand.follow(stage.get_problem()));
@@ -201,13 +207,13 @@ namespace Exemplar::Live
     if (failure.empty())
       show_frame();
     else
-      recover(failure);
+      recover(failure, before);
     if (pace.wants_status())
       show_status();
   }
 
   void
-  Simulation::recover(const std::string &message)
+  Simulation::recover(const std::string &message, const Hand::Held &before)
   {
     state_is_new = true;
     if (n_failures > 2)
@@ -217,9 +223,12 @@ namespace Exemplar::Live
       tell("warning", message + " The body is at its beginning again, and the simulation pauses.");
       return;
     }
+    const bool have_handles = !hand.get_held().handles.empty();
     stage.act(hand.let_go_of_all(stage.get_problem()));
+    stage.act(hand.stop_handles(before, stage.get_problem()));
     stage.forget();
-    tell("warning", message + " All that pulled has been let go of.");
+    tell("warning", message + " Everything that pulled has let go"
+                        + (have_handles ? ", and handles that were dragged stop here." : "."));
   }
 
   void
@@ -280,22 +289,27 @@ namespace Exemplar::Live
     wish.colour = name;
   }
 
-  std::vector<double>
+  Colours
   Simulation::colours() const
   {
-    Problem &problem = stage.get_problem();
+    Problem     &problem  = stage.get_problem();
+    const double diameter = problem.body.mesh.diameter(), young = young_of(problem).mean;
     if (wish.colour == "energy" || wish.colour == "det F")
     {
+      const bool        is_energy = wish.colour == "energy";
       const CellResults cells
           = problem.elastic->cell_results(problem.state.positions, problem.state.weights);
-      return at_vertices(wish.colour == "energy" ? cells.strain_energy_density : cells.det_F,
-                         problem.body.mesh, surface);
+      return { at_vertices(is_energy ? cells.strain_energy_density : cells.det_F, problem.body.mesh,
+                           surface),
+               is_energy ? 0.5 * young * least_strain * least_strain : least_strain };
     }
     if (wish.colour == "contact")
-      return lengths(contact_forces(problem), surface);
+      return { lengths(contact_forces(problem), surface),
+               young * std::pow(least_strain * diameter, 2) };
     for (unsigned int i = 0; i < problem.examples.poses.size(); ++i)
       if (wish.colour == name_of_pose(i))
-        return distances(problem.state.positions, problem.examples.poses.pose(i), surface);
+        return { distances(problem.state.positions, problem.examples.poses.pose(i), surface),
+                 least_strain * diameter };
     return {};
   }
 
@@ -310,9 +324,24 @@ namespace Exemplar::Live
   }
 
   void
+  Simulation::show_obstacles()
+  {
+    const Problem &problem = stage.get_problem();
+    if (!obstacles.are_old(problem))
+      return;
+    obstacles             = ObstacleFrames(problem, up);
+    std::vector<Bytes> of = obstacles.welcome(problem);
+    if (of.empty()) // a surface without triangles, instead of the one that viewers have
+      of.push_back(topology_message(BodySurface(), BinaryKind::topology_of_obstacles));
+    outbox.obstacles(welcome(), of);
+    state_is_new = true;
+    show_frame();
+  }
+
+  void
   Simulation::show_state()
   {
-    outbox.text(state_text(stage, hand, surface, wish));
+    outbox.text(state_text(stage, hand, surface, obstacles, wish));
     state_is_new = false;
   }
 

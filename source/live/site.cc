@@ -93,9 +93,9 @@ namespace Exemplar::Live
     add("/", "text/html", page_file("index.html"));
     add("/style.css", "text/css", page_file("style.css"));
     for (const std::string name :
-         { "app.js", "view.js", "body.js", "camera.js", "ground.js", "marks.js", "messages.js",
-           "motion.js", "obstacles.js", "skin.js", "latest.js", "pointer.js", "panel.js",
-           "sliders.js", "weights.js", "words.js" })
+         { "app.js", "view.js", "body.js", "camera.js", "ground.js", "marks.js", "outline.js",
+           "messages.js", "motion.js", "obstacles.js", "skin.js", "latest.js", "pointer.js",
+           "panel.js", "sliders.js", "weights.js", "words.js" })
       add("/" + name, "text/javascript", page_file(name));
     for (const std::string name :
          { "build/three.module.js", "examples/jsm/controls/OrbitControls.js" })

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/live/stage.h>
+#include <exemplar/mesh/rigid_motion.h>
+#include <exemplar/run/output/weight_names.h>
 #include <exemplar/run/problem/step_interval.h>
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <stdexcept>
 #include <system_error>
@@ -25,6 +30,46 @@ namespace Exemplar::Live
                           "Session/File.");
       parameters.solver.n_threads = n_threads;
       return parameters;
+    }
+
+    /// The greatest distance of nodes of a body from those of a pose that is moved rigidly to where the body is [m].
+    double
+    distance_from(const Vector &pose, const Vector &positions, const unsigned int n_nodes)
+    {
+      std::vector<dealii::Point<3>> from, to;
+      for (unsigned int node = 0; node < n_nodes; ++node)
+      {
+        from.emplace_back(pose[3 * node], pose[3 * node + 1], pose[3 * node + 2]);
+        to.emplace_back(positions[3 * node], positions[3 * node + 1], positions[3 * node + 2]);
+      }
+      const RigidMotion motion  = best_rigid_motion(from, to);
+      double            largest = 0.;
+      for (unsigned int node = 0; node < n_nodes; ++node)
+        largest = std::max(largest, motion(from[node]).distance(to[node]));
+      return largest;
+    }
+
+    /// Throws UserError for a body that is nearly as at rest or as in an example: two examples that are alike share
+    /// one weight as rounding decides.
+    void
+    refuse_what_is_there(const Problem &problem)
+    {
+      constexpr double    least    = 0.02; // of the diameter
+      const double        diameter = problem.body.mesh.diameter();
+      const ExamplePoses &poses    = problem.examples.poses;
+      const auto          check    = [&](const Vector &pose, const std::string &name)
+      {
+        const double part
+            = distance_from(pose, problem.state.positions, problem.body.mesh.n_nodes()) / diameter;
+        if (part < least)
+          throw UserError(fmt::format(
+              "the body is hardly away from {}: no point is farther from it than {:.1g} % of the "
+              "body's size. Pull it at least 2 % away, or hold it with pins while you pull.",
+              name, 100. * part));
+      };
+      check(problem.body.fe_space.rest_positions(), "rest");
+      for (unsigned int i = 0; i < poses.size(); ++i)
+        check(poses.pose(i), "its example " + short_name_of_pose(poses, i));
     }
 
     /// Repeat an action that was possible before: if it is refused now, no body is left, and the
@@ -221,6 +266,7 @@ namespace Exemplar::Live
       places.emplace_back(x[0], x[1], x[2]);
       places.back() /= parameters.mesh.scale;
     }
+    refuse_what_is_there(*problem);
     SceneParameters scene = parameters;
     const auto      n     = scene.examples.poses.size();
     std::string     name  = "by_hand_" + std::to_string(n + 1);

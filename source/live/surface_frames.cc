@@ -59,6 +59,25 @@ namespace Exemplar::Live
         }
     }
 
+    /// The values that the ends of the colours stand for. A range that is too small is widened about its middle, but no
+    /// further below 0 than the values are.
+    Range
+    range_of(const Colours &colours)
+    {
+      if (colours.values.empty())
+        return { 0., 0. };
+      Range range;
+      for (const double value : colours.values)
+        range.add(value);
+      if (const double missing = colours.least_size - range.size(); missing > 0.)
+      {
+        const double below = std::min(0.5 * missing, std::max(range.min, 0.));
+        range.min -= below;
+        range.max += missing - below;
+      }
+      return range;
+    }
+
     void
     append_colours(std::string &bytes, const std::vector<double> &colours, const Range &range)
     {
@@ -114,17 +133,16 @@ namespace Exemplar::Live
   }
 
   Bytes
-  frame_message(const FrameHead           &head,
-                const BodySurface         &surface,
-                const Vector              &positions,
-                const std::vector<double> &colours)
+  frame_message(const FrameHead   &head,
+                const BodySurface &surface,
+                const Vector      &positions,
+                const Colours     &colours)
   {
-    Range box[3], range;
+    Range box[3];
     for (const unsigned int node : surface.nodes)
       for (unsigned int c = 0; c < 3; ++c)
         box[c].add(positions[3 * node + c]);
-    for (const double colour : colours)
-      range.add(colour);
+    const Range range = range_of(colours);
     std::string bytes;
     bytes.reserve(64 + 7 * surface.nodes.size());
     append(bytes, static_cast<std::uint32_t>(head.kind));
@@ -137,11 +155,11 @@ namespace Exemplar::Live
     for (const Range &along : box)
       append(bytes, static_cast<float>(along.size()));
     append(bytes, static_cast<std::uint32_t>(surface.nodes.size()));
-    append(bytes, static_cast<std::uint32_t>(!colours.empty()));
-    append(bytes, static_cast<float>(colours.empty() ? 0. : range.min));
-    append(bytes, static_cast<float>(colours.empty() ? 0. : range.max));
+    append(bytes, static_cast<std::uint32_t>(!colours.values.empty()));
+    append(bytes, static_cast<float>(range.min));
+    append(bytes, static_cast<float>(range.max));
     append_places(bytes, surface, positions, box);
-    append_colours(bytes, colours, range);
+    append_colours(bytes, colours.values, range);
     return std::make_shared<const std::string>(std::move(bytes));
   }
 

@@ -83,13 +83,32 @@ namespace Exemplar::Live
       return bounds;
     }
 
-    /// Handles that were dragged, with their displacements [m].
+    /// What was dragged, with its displacement [m].
     Json
-    shifts_of(const Hand &hand)
+    shifts_of(const std::map<std::string, Hand::Pull> &pulls)
     {
       Json list = Json::array();
-      for (const auto &[name, pull] : hand.get_held().handles)
+      for (const auto &[name, pull] : pulls)
         list.push_back({ { "name", name }, { "shift", { pull.to[0], pull.to[1], pull.to[2] } } });
+      return list;
+    }
+
+    /// The obstacles that are drawn, with their triangles and displacements [m] by hand.
+    Json
+    obstacles_of(const ObstacleFrames &obstacles, const Hand &hand)
+    {
+      Json        list    = Json::array();
+      const auto &dragged = hand.get_held().obstacles;
+      for (const ObstacleFrames::Shown &shown : obstacles.shown())
+      {
+        const auto             pull = dragged.find(shown.name);
+        const dealii::Point<3> at   = pull == dragged.end() ? dealii::Point<3>() : pull->second.to;
+        list.push_back({ { "name", shown.name },
+                         { "triangles", shown.n_triangles },
+                         { "movable", shown.is_movable },
+                         { "there", !shown.has_left },
+                         { "shift", { at[0], at[1], at[2] } } });
+      }
       return list;
     }
 
@@ -161,6 +180,7 @@ namespace Exemplar::Live
       return { { "young", young },
                { "poisson", poisson },
                { "importance", parameters.examples.importance },
+               { "energy", name_of_energy(parameters.examples.energy) },
                { "gravity", parameters.loads.gravity },
                { "damping", { parameters.time.mass_damping, parameters.time.stiffness_damping } },
                { "tensions", tensions_of(problem) } };
@@ -176,6 +196,14 @@ namespace Exemplar::Live
       if (poisson.varies)
         names.push_back("poisson");
       return names;
+    }
+
+    /// Whether viewers choose between the scaled and the mixed energy: blended is chosen by scenes alone, which may need it.
+    bool
+    chooses_energy(const ExampleParameters &examples)
+    {
+      return examples.in_use() && examples.weights != WeightRule::prescribed
+             && examples.energy != ExampleEnergy::blended;
     }
 
     Json
@@ -219,8 +247,10 @@ namespace Exemplar::Live
           { "young", parameters.material.everywhere.youngs_modulus },
           { "poisson", parameters.material.everywhere.poissons_ratio },
           { "importance", parameters.examples.importance },
+          { "energy", name_of_energy(parameters.examples.energy) },
           { "bounds", bounds_of(hand) },
           { "tensions", sliders_of_tensions(problem) },
+          { "chooses_energy", chooses_energy(parameters.examples) },
           { "finds_weights", parameters.examples.are_bounded() },
           { "weights_add", parameters.examples.weights == WeightRule::additive },
           { "gravity", parameters.loads.gravity },
@@ -233,7 +263,11 @@ namespace Exemplar::Live
   }
 
   std::string
-  state_text(const Stage &stage, const Hand &hand, const BodySurface &surface, const Wish &wish)
+  state_text(const Stage          &stage,
+             const Hand           &hand,
+             const BodySurface    &surface,
+             const ObstacleFrames &obstacles,
+             const Wish           &wish)
   {
     const Problem      &problem = stage.get_problem();
     const NumberOfCells young = young_of(problem), poisson = poisson_of(problem);
@@ -246,7 +280,8 @@ namespace Exemplar::Live
                                   { "importance_with_examples", hand.importance_with_examples(problem) },
                                   { "weights_by_hand", hand.get_held().weights.are_in_use() },
                                   { "weights_wanted", wanted_weights(problem, hand) },
-                                  { "handles", shifts_of(hand) },
+                                  { "handles", shifts_of(hand.get_held().handles) },
+                                  { "obstacles", obstacles_of(obstacles, hand) },
                                   { "pins", pins_of(hand, surface) } };
     return std::string(begin_of_state) + text_of(state).substr(1); // without its brace
   }

@@ -27,7 +27,7 @@ export class View {
     this.eye = new Camera(canvas);
     this.light = new THREE.DirectionalLight("#ffffff", 0.6);
     this.sky = new THREE.HemisphereLight("#ffffff", "#8890a0", 0.6);
-    this.marks = new Marks({ handle: colour("handle"), pin: colour("pin"), edge: colour("edge"), spring: colour("spring") });
+    this.marks = new Marks({ handle: colour("handle"), pin: colour("pin"), edge: colour("edge"), spring: colour("spring") }, document.getElementById("names"));
     this.ground = new Ground(this.renderer);
     this.scene.add(this.sky, this.light, this.light.target, this.marks.group, this.marks.spring, this.ground.group);
     this.body = null;
@@ -67,6 +67,7 @@ export class View {
     this.light.position.copy(this.eye.camera.position);
     this.light.target.position.copy(this.controls.target);
     this.onDraw && this.onDraw();
+    this.marks.placeNames((point) => this.onPage(point));
     if (this.ground.group.visible)
       this.ground.castShadow();
     this.renderer.render(this.scene, this.eye.camera);
@@ -91,6 +92,7 @@ export class View {
   }
 
   setObstacles(topology) {
+    this.obstacles && this.scene.remove(this.obstacles.mesh);
     this.obstacles = new Obstacles(topology, colour("obstacle"));
     this.scene.add(this.obstacles.mesh);
   }
@@ -120,6 +122,7 @@ export class View {
     this.hasPlace = true; // as the body was at the beginning
     const { radius } = this.sphere();
     this.spacing = 0.07 * radius;
+    this.eye.suit(this.body.geometry);
     this.ground.place(this.body.geometry, this.eye.up, this.floor);
     this.ground.group.visible = this.wantsGround;
     this.look("home", true);
@@ -153,6 +156,21 @@ export class View {
   // The first point of the body on a ray through a place of the window; null: none.
   pick(event) {
     return this.body && this.hasPlace ? this.body.hit(this.ray(event)) : null;
+  }
+
+  // The obstacle on such a ray, if it is nearer than the body; null: none.
+  pickObstacle(event, list) {
+    const hit = this.obstacles && this.obstacles.hit(this.ray(event), list);
+    const body = hit && this.pick(event);
+    return hit && !(body && body.distance < hit.distance) ? hit : null;
+  }
+
+  // A place to the right of the body, as it is seen, for an obstacle of this size.
+  placeBeside(size) {
+    const { center, radius } = this.sphere();
+    const right = new THREE.Vector3(1, 0, 0).applyQuaternion(this.eye.camera.quaternion);
+    right.addScaledVector(this.eye.up, -right.dot(this.eye.up)).normalize();
+    return center.clone().addScaledVector(right, radius + 1.2 * size);
   }
 
   // Where the pointer is in the plane through a point that faces the camera.

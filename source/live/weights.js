@@ -12,13 +12,16 @@ export class Weights {
     this.latest = new Latest((numbers) => send({ type: "weights", numbers }), 100);
     for (const rule of document.querySelectorAll("[name=rule]"))
       rule.onchange = () => send({ type: "weights", numbers: rule.value === "by hand" ? this.inForce || [] : [] });
+    for (const choice of document.querySelectorAll("[name=energy]"))
+      choice.onchange = () => send({ type: "energy", name: choice.value });
     find("with").onchange = () => this.toggle();
   }
 
-  setScene({ examples, weight_regions: regions, finds_weights: areFound, weights_add: areAdded, importance, bounds }) {
+  setScene({ examples, weight_regions: regions, finds_weights: areFound, weights_add: areAdded, importance, bounds, chooses_energy: choosesEnergy }) {
     this.areAdded = areAdded;
     find("examples").hidden = examples.length === 0;
     find("rule").hidden = !areFound;
+    find("energy").hidden = !choosesEnergy;
     find("switch").hidden = !(importance > 0);
     [this.least] = bounds.importance;
     this.bars = examples.map((name, i) => this.bar(name, i, regions.length > 1 ? regions : [null]));
@@ -74,6 +77,8 @@ export class Weights {
     document.body.dataset.examples = state.with_examples;
     for (const rule of document.querySelectorAll("[name=rule]"))
       rule.checked = (rule.value === "by hand") === state.weights_by_hand;
+    for (const choice of document.querySelectorAll("[name=energy]"))
+      choice.checked = choice.value === state.settings.energy;
     this.latest.answered();
     this.bars.forEach(({ input }, i) => {
       input.hidden = !state.weights_by_hand;

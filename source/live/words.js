@@ -23,7 +23,7 @@ export const round = (x) => Number(x.toPrecision(2));
 export function speedWords(isPaused, rate) {
   if (isPaused)
     return "paused";
-  return rate >= 0.95 ? "real time" : `slower than real time: ${Math.round(100 * rate)} %`;
+  return rate >= 0.95 ? "real time" : `slow motion: ${Math.round(100 * rate)} % of real time`;
 }
 
 // The numbers behind those words: [what, how much].

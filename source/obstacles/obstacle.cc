@@ -128,9 +128,10 @@ namespace Exemplar
   ObstaclePose
   Obstacle::pose(const double time) const
   {
+    const SpaceVector3 moved = shift + carried.at(time);
     if (track.track.times.empty())
       return checked({ rotation_by(checked_turn(turn.vector({}, time), time)),
-                       own_shape.middle + shift + motion.vector({}, time) },
+                       own_shape.middle + moved + motion.vector({}, time) },
                      time);
     const RigidTrack::Frame    frame = track.track.at(time);
     const SpaceVector3         displacement({ frame[0], frame[1], frame[2] });
@@ -138,7 +139,7 @@ namespace Exemplar
         = rotation_by(checked_turn(SpaceVector3({ frame[3], frame[4], frame[5] }), time));
     const SpaceVector3 &middle = own_shape.middle;
     return checked(
-        { rotation, shift + displacement + (track.track.is_of_space ? rotation * middle : middle) },
+        { rotation, moved + displacement + (track.track.is_of_space ? rotation * middle : middle) },
         time);
   }
 
@@ -164,6 +165,20 @@ namespace Exemplar
           "with. Look at its Motion or track.",
           called, distance, time));
     return pose;
+  }
+
+  SpaceVector3
+  Obstacle::Carriage::at(const double time) const
+  {
+    if (time >= end)
+      return to;
+    return time <= begin ? from : from + (time - begin) / (end - begin) * (to - from);
+  }
+
+  void
+  Obstacle::carry(const SpaceVector3 &to, const double begin, const double end)
+  {
+    carried = { begin, end, carried.at(begin), to };
   }
 
   std::vector<SpaceVector3>

@@ -55,6 +55,9 @@ namespace Exemplar
   {
     if (standing.size() != obstacles.all.size())
       follow_obstacles();
+    for (unsigned int i = 0; i < step.there.size(); ++i)
+      if (obstacles.all[i].has_left())
+        step.there[i] = 0;
     TouchingTerm::follow_parameters();
     found.positions.reinit(0);
   }

@@ -50,6 +50,20 @@ namespace Exemplar
                 << std::endl;
     }
 
+    /// How surfaces pass through each other in a file of a run with contact.
+    std::string
+    words_of(const Live::Crossings &crossings, const Live::GltfReport &report)
+    {
+      const std::string obstacles
+          = fmt::format("{} obstacles are in the file. ", report.n_obstacles);
+      if (crossings.n_frames == 0)
+        return obstacles + "No surfaces pass through each other in it that do not in the run.";
+      return obstacles
+             + fmt::format("Surfaces pass through each other in {} of {} frames, by {:.3e} m at "
+                           "most. For less take more by --shapes.",
+                           crossings.n_frames, report.n_frames, crossings.deepest);
+    }
+
     void
     write_gltf(const ExportOptions &options)
     {
@@ -57,13 +71,17 @@ namespace Exemplar
         throw UserError("--gltf takes one run: call it for each.");
       const Live::GltfReport report = Live::export_gltf(
           { options.runs.front(), options.gltf, options.n_shapes, options.with_normals });
-      std::cout << fmt::format("{}: {} of {} vertices, {} and {}, {:.1f} "
+      std::cout << fmt::format("{}: {} of {} vertices in the order of the surface and {} at seams, "
+                               "{} and {}, {:.1f} "
                                "MB; vertices are off by {:.3e} m at most, {:.3f} % of the diagonal",
                                options.gltf, counted(report.n_frames, "frame"), report.n_vertices,
+                               counted(report.n_copies, "copy", "copies"),
                                counted(report.n_examples, "example"),
                                counted(report.n_shapes, "shape"), 1e-6 * report.n_bytes,
                                report.error, 100. * report.relative_error)
                 << std::endl;
+      if (report.crossings)
+        std::cout << words_of(*report.crossings, report) << std::endl;
       for (const std::string &warning : report.warnings)
         std::cerr << "Warning: " << message_text(warning) << std::endl;
     }

@@ -69,6 +69,8 @@ namespace Exemplar::Python
       digest.add(parameters.time.mass_damping);
       digest.add(parameters.time.stiffness_damping);
       digest.add(problem.examples.poses.size() == 0 ? 0. : parameters.examples.importance);
+      digest.add(problem.examples.poses.size() == 0 ? 0.
+                                                    : blended_part(parameters.examples.energy));
       digest.add_all(parameters.loads.gravity);
       digest.add(static_cast<double>(problem.actions.own_terms.size()));
       add_handles(problem, digest);

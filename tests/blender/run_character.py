@@ -231,6 +231,35 @@ def case_added():
     return found
 
 
+def case_keyed_weights():
+    """Keys that add up to more than 1 for a while, one keyed and one driven by the other."""
+    body = make_body()
+    keys = body.data.shape_keys
+    add_key(body, "twisted", [(x * math.cos(.2 * z) - y * math.sin(.2 * z), x * math.sin(.2 * z) + y * math.cos(.2 * z), z)
+                              for x, y, z in bar()[0]])
+    still = run(body, follow="", pin="feet", weights="KEYED", stiffness=1e6, steps=2)
+    for frame, value in ((3, 0.), (11, .9), (18, .25)):
+        keys.key_blocks["bent"].value = value
+        keys.key_blocks["bent"].keyframe_insert("value", frame=frame)
+    driver = keys.key_blocks["twisted"].driver_add("value").driver
+    driver.type = "SCRIPTED"
+    of = driver.variables.new()
+    of.name, of.targets[0].id_type, of.targets[0].id, of.targets[0].data_path = "bent", "KEY", keys, 'key_blocks["bent"].value'
+    driver.expression = "bent / 2"
+    wanted = []
+    for frame in range(3, 19):
+        scene.frame_set(frame)
+        wanted.append([keys.key_blocks[name].value for name in ("bent", "twisted")])
+    found = {"still": still, "wanted": wanted, "painted": run(body, follow="", pin="feet", regions="AUTO")}
+    found |= {"said": run(body, follow="", pin="feet", regions="NONE"), "prm": scene_file(), "values": []}
+    shown = bpy.data.objects["bar result"].data.shape_keys
+    for frame in range(3, 19):
+        scene.frame_set(frame)
+        found["values"].append([shown.key_blocks[name].value for name in ("bent", "twisted")])
+    found |= {"shown": [places(bpy.data.objects["bar result"], frame) for frame in range(3, 19)], "run": run_places()}
+    return found
+
+
 def case_regions():
     body = make_body()
     for name, chosen in (("exemplar region top", lambda x, y, z: z > 2), ("exemplar region foot", lambda x, y, z: z < 1)):

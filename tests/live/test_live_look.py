@@ -129,13 +129,13 @@ class LookTest(PageTest):
         self.assertFalse(overlay.is_displayed())
 
     def test_words_for_who_is_no_engineer(self):
-        self.assertRegex(self.text("strip"), r"^(real time|slower than real time: \d+ %)$")
+        self.assertRegex(self.text("strip"), r"^(real time|slow motion: \d+ % of real time)$")
         self.find("strip").find_element("css selector", "summary").click()
         for word in ("behind the clock", "step error", "iterations"):
             self.assertIn(word, self.text("numbers"))
         words = self.page.execute_async_script("const done = arguments[0]; import('./words.js').then((w) => done([w.speedWords(true, 1), w.speedWords(false, 1.02),"
                                                "w.speedWords(false, 0.4), w.short(0), w.short(1.25e6), w.withUnit(1.25e6, 'Pa'), w.short(0.9000000001)]));")
-        self.assertEqual(words, ["paused", "real time", "slower than real time: 40 %", "0", "1.25e6", "1.25 MPa", "0.9"])
+        self.assertEqual(words, ["paused", "real time", "slow motion: 40 % of real time", "0", "1.25e6", "1.25 MPa", "0.9"])
 
     def test_picture(self):
         self.find("picture").click()
@@ -213,6 +213,8 @@ class PhoneTest(PageTest):
         for box in boxes:
             self.assertGreater(box["width"], 10)
             self.assertTrue(box["left"] >= 0 and box["right"] <= 390 and box["bottom"] <= 844 and box["top"] > 0, box)
+        self.assertEqual(self.run_script("return [...document.querySelectorAll('input, select, summary')].filter((e) => e.checkVisibility())"
+                                         ".map((e) => (e.closest('label') || e).getBoundingClientRect()).filter(({ height }) => height < 40).length;"), 0)
         small = self.run_script("return [...document.querySelectorAll('button')].filter((e) => e.checkVisibility()).map((e) => e.getBoundingClientRect())"
                                 ".filter(({ width, height }) => width < 24 || height < 40).length;")
         self.assertEqual(small, 0)

@@ -149,6 +149,92 @@ class LiveObstacles(Base):
         self.look(page, "export_obstacles")
 
 
+class DrivenHandle(Base):
+    """A handle that is dragged into an obstacle stops; nothing else is lost."""
+
+    def test_it_stops_at_the_obstacle_and_the_session_goes_on(self):
+        (self.here / "scene.prm").write_text(prm({**BAR, "Obstacles/Names": "wall", "Obstacles/wall/Shape": "box -3 -3 1.2  6 3 3"}))
+        with Viewer(self.serve()) as viewer:
+            left = viewer.scene["handles"][0]["vertices"]
+            top = max(z for _, _, z in viewer.frames[0].places)
+            viewer.send(type="handle", name="left", numbers=[0, 0, 3.])
+            said = viewer.wait_for("warning")["text"]
+            self.assertIn("stop here", said)
+            state = viewer.wait_for("state")
+            shift = state["handles"][0]["shift"][2]
+            self.assertTrue(.3 < shift < 1.2 - top, shift)
+            step = viewer.frames[-1].step
+            viewer.wait_steps(20)
+            self.assertEqual(viewer.frames[-1].step, step + 20)  # it has not begun again
+            self.assertAlmostEqual(max(viewer.frames[-1].places[v][2] for v in left), top + shift, delta=1e-4)
+            viewer.send(type="handle", name="left", numbers=[0, 0, 0])  # and goes back
+            viewer.until(lambda: abs(max(viewer.frames[-1].places[v][2] for v in left) - top) < 1e-3)
+
+
+class ByHand(Base):
+    """Obstacles are put beside the body, carried against it and taken away; the recorded session ends in the same bytes."""
+
+    def state(self, viewer):
+        return [text for text in viewer.texts if text["type"] == "state"][-1]
+
+    def test_a_session(self):
+        (self.here / "scene.prm").write_text(prm(BAR))
+        with Viewer(self.serve("--record", self.here / "session")) as viewer:
+            def tip():
+                return max(z for x, _, z in viewer.frames[-1].places if x > 3.9)
+            self.assertEqual((self.state(viewer)["obstacles"], viewer.obstacles), ([], []))
+            viewer.wait_steps(3)
+            begin = tip()
+            viewer.send(type="put", name="in the way", numbers=[3.5, 0, 0, .5, .5])
+            self.assertIn("the body is there", viewer.wait_for("refused")["text"])
+            viewer.send(type="put", name="ball 1", numbers=[3.5, 0, 2, .5, .5])
+            viewer.until(lambda: viewer.obstacles)
+            viewer.until(lambda: self.state(viewer)["obstacles"])
+            (ball,) = self.state(viewer)["obstacles"]
+            self.assertEqual((ball["name"], ball["movable"], ball["there"], ball["shift"]), ("ball 1", True, True, [0, 0, 0]))
+            self.assertEqual(ball["triangles"], len(viewer.triangles_of_obstacles))
+            viewer.send(type="carry", name="ball 1", numbers=[0, 0, -1.2])
+            viewer.until(lambda: viewer.frames[-1].obstacles and abs(min(z for _, _, z in viewer.frames[-1].obstacles.places) - .3) < .01)
+            viewer.wait_steps(10)
+            pressed = tip()
+            self.assertLess(pressed, begin - .1)
+            viewer.send(type="put", name="block 1", numbers=[1, 1, 2, 2, 2, 3, .5])
+            viewer.until(lambda: len(self.state(viewer)["obstacles"]) == 2)
+            viewer.wait_steps(3)
+            viewer.send(type="undo")  # the ball stays where it was carried to
+            viewer.until(lambda: len(self.state(viewer)["obstacles"]) == 1)
+            viewer.wait_steps(10)
+            self.assertAlmostEqual(tip(), pressed, delta=.05)
+            viewer.send(type="take away", name="ball 1")
+            viewer.until(lambda: not self.state(viewer)["obstacles"][0]["there"])
+            viewer.wait_steps(60)
+            self.assertGreater(tip(), pressed + .05)
+            for message in ({"type": "carry", "name": "ball 1", "numbers": [0, 0, 0]}, {"type": "take away", "name": "nobody"},
+                            {"type": "put", "name": "ball 1", "numbers": [3.5, 0, 5, .5, .5]}, {"type": "put", "name": "b", "numbers": [1, 2]},
+                            {"type": "put", "name": "c", "numbers": [3.5, 0, 5, -1, .5]}):
+                viewer.send(**message)
+                viewer.wait_for("refused")
+            self.assertFalse([text for text in viewer.texts if text["type"] == "warning"])
+            viewer.send(type="pause", on=True)
+            viewer.until(lambda: viewer.wait_for("status")["paused"])
+            viewer.send(type="save pose")
+            saved = Path(viewer.wait_for("saved")["text"])
+        done = call_program(self.here / "session/scene.prm", "--output", self.here / "again")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        nodes = [file.read_text().split("$Nodes")[1].split("$EndNodes")[0] for file in (saved, self.here / "again/final.msh")]
+        self.assertEqual(*nodes)
+
+    def test_obstacles_of_the_scene_move_too(self):
+        with Viewer(self.serve("--floor", "-3")) as viewer:
+            self.assertEqual([(o["name"], o["movable"]) for o in self.state(viewer)["obstacles"]], [("step", True), ("roller", True)])
+            low = min(z for _, _, z in viewer.obstacles[0].places)
+            viewer.send(type="carry", name="step", numbers=[0, 0, -.5])
+            viewer.until(lambda: viewer.frames[-1].obstacles and abs(min(z for _, _, z in viewer.frames[-1].obstacles.places) - low + .0) < 1e-3
+                         and abs(viewer.frames[-1].obstacles.places[0][2] + 2.5) < 1e-3)
+            viewer.send(type="take away", name="roller")
+            viewer.until(lambda: [o["there"] for o in self.state(viewer)["obstacles"]] == [True, False])
+
+
 class Sheets(Base):
     """A shell that falls on a ball and a floor."""
 
@@ -173,6 +259,47 @@ class Sheets(Base):
             self.assertGreater(min(z for _, _, z in places), -.15)
             self.assertLess(min(z for _, _, z in places), -.04)
             self.assertGreater(min(x * x + y * y + (z + .13) ** 2 for x, y, z in places), .1 ** 2)
+
+    def test_hands_hold_it_hard_pin_it_and_drag_its_handle(self):
+        """The edge that a handle holds with its slopes stays as it is turned; the recorded session ends in the same bytes."""
+        self.sheet.update({"Obstacles/Names": None, "Obstacles/ball/Shape": None, "Obstacles/ball/Friction": None, "Loads/Gravity": "0, 0, -1",
+                           "Handles/Names": "edge", "Handles/edge/Select": "box -1 -1 -1  -0.18 1 1"})
+        (self.here / "scene.prm").write_text(prm(self.sheet))
+        with Viewer(self.serve("--record", self.here / "session")) as viewer:
+            edge = viewer.scene["handles"][0]["vertices"]
+            viewer.wait_steps(5)
+            viewer.send(type="handle", name="edge", numbers=[0, 0, .05])
+            viewer.wait_steps(60)
+            held = [viewer.frames[-1].places[v] for v in edge]
+            self.assertLess(max(abs(z - .05) for _, _, z in held), 2e-4)
+            viewer.grab(viewer.farthest(), hard=True)
+            viewer.move((.22, 0, .1))
+            viewer.wait_steps(20)
+            corner = [v for v, (x, y, _) in enumerate(viewer.frames[0].places) if x > .15 and y > .15]
+            viewer.send(type="pin", name="1", vertices=corner)
+            viewer.wait_steps(3)
+            pinned = [viewer.frames[-1].places[v] for v in corner]
+            viewer.send(type="release", name="a")
+            viewer.wait_steps(20)
+            for place, before in zip((viewer.frames[-1].places[v] for v in corner), pinned):
+                self.assertLess(max(abs(a - b) for a, b in zip(place, before)), 2e-4)
+            free = min(range(len(viewer.frames[-1].places)), key=lambda v: viewer.frames[-1].places[v][1] - .1 * viewer.frames[-1].places[v][0])
+            triangle = next(t for t, corners in enumerate(viewer.triangles) if free in corners)
+            viewer.grab((triangle, [float(v == free) for v in viewer.triangles[triangle]], viewer.frames[-1].places[free]), hard=True)
+            viewer.wait_steps(3)
+            viewer.send(type="undo")  # the pin and the dragged handle stay
+            viewer.wait_steps(5)
+            for place, before in zip((viewer.frames[-1].places[v] for v in corner), pinned):
+                self.assertLess(max(abs(a - b) for a, b in zip(place, before)), 2e-4)
+            self.assertEqual([text for text in viewer.texts if text["type"] in ("warning", "refused")], [])
+            viewer.send(type="pause", on=True)
+            viewer.until(lambda: viewer.wait_for("status")["paused"])
+            viewer.send(type="save pose")
+            saved = Path(viewer.wait_for("saved")["text"])
+        done = call_program(self.here / "session/scene.prm", "--output", self.here / "again")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        nodes = [file.read_text().split("$Nodes")[1].split("$EndNodes")[0] for file in (saved, self.here / "again/final.msh")]
+        self.assertEqual(*nodes)
 
     @needs_browser
     def test_the_page_of_a_run_shows_both(self):

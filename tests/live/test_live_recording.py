@@ -66,6 +66,7 @@ class RecordingTest(unittest.TestCase):
         viewer.send(type="pin", name="1", vertices=[i for i, place in enumerate(viewer.frames[-1].places) if 1.4 < place[0] < 2.2])
         viewer.send(type="set", name="young", numbers=[5e5])
         viewer.send(type="set", name="importance", numbers=[.5])
+        viewer.send(type="energy", name="mixed")
         viewer.send(type="weights", numbers=[.3, .7])
         viewer.wait_steps(10)
         viewer.send(type="release", name="b")
@@ -102,7 +103,7 @@ class RecordingTest(unittest.TestCase):
         lines = (self.record / "session.txt").read_text().splitlines()
         self.assertEqual(lines[0], "exemplar session 1")
         words = {line.split(" | ")[1] for line in lines[1:]}
-        self.assertTrue({"grab", "move", "release", "hold", "shift", "let go", "gravity", "damping", "young", "poisson", "importance", "weights"} <= words, words)
+        self.assertTrue({"grab", "move", "release", "hold", "shift", "let go", "gravity", "damping", "young", "poisson", "importance", "energy", "weights"} <= words, words)
 
     def test_other_tolerance_and_elements(self):
         exact = numbers(self.play("exact", "--set", "Solver/Method=newton") / "final.msh")

@@ -40,7 +40,7 @@ class StateTest(unittest.TestCase):
     def test_who_joins_is_told(self):
         self.assertEqual([text["type"] for text in self.first.texts[:2]], ["scene", "state"])
         state, scene = self.state(self.first), self.first.scene
-        self.assertEqual(state["settings"], {**{name: scene[name] for name in ("young", "poisson", "importance", "gravity", "damping")}, "tensions": {}})
+        self.assertEqual(state["settings"], {**{name: scene[name] for name in ("young", "poisson", "importance", "energy", "gravity", "damping")}, "tensions": {}})
         self.assertEqual({name: state[name] for name in ("pins", "handles", "colour", "undo", "paused", "weights_by_hand", "weights_wanted", "means")},
                          {"pins": [], "handles": [], "colour": "none", "undo": 0, "paused": False, "weights_by_hand": False, "weights_wanted": [],
                           "means": []})
@@ -56,12 +56,13 @@ class StateTest(unittest.TestCase):
         first.send(type="damping", numbers=[3., .001])
         first.send(type="pin", name="1", vertices=middle)
         first.send(type="handle", name="left", numbers=[0., 0., .25])
+        first.send(type="energy", name="mixed")
         first.send(type="weights", numbers=[.25, .75])
         first.send(type="colour", name="det F")
         first.send(type="pause", on=True)
         for viewer in first, second:
             state = self.wait(viewer, lambda state: state["paused"])
-            self.assertEqual(state["settings"], {"young": 2e6, "poisson": .45, "importance": .9, "gravity": [0., 0., -1.5], "damping": [3., .001], "tensions": {}})
+            self.assertEqual(state["settings"], {"young": 2e6, "poisson": .45, "importance": .9, "gravity": [0., 0., -1.5], "damping": [3., .001], "tensions": {}, "energy": "mixed"})
             self.assertEqual(state["pins"], [{"name": "1", "vertices": middle}])
             self.assertEqual(state["handles"], [{"name": "left", "shift": [0., 0., .25]}])
             self.assertEqual((state["colour"], state["weights_by_hand"], state["weights_wanted"]), ("det F", True, [.25, .75]))
@@ -131,6 +132,48 @@ class StateTest(unittest.TestCase):
         self.assertEqual(self.viewer().texts[0], scene)
         first.send(type="weights", numbers=[0.] * len(begun["examples"]) + [1.])
         self.wait(first, lambda state: state["weights_by_hand"])
+
+    def test_rest_becomes_no_example_and_shows_no_noise(self):
+        """Two examples that are alike would share one weight as rounding decides."""
+        first = self.first
+        first.wait_steps(5)
+        first.send(type="add example")
+        self.assertIn("hardly away from rest", first.wait_for("refused")["text"])
+        for name, least, most in (("energy", 0, 0), ("det F", 120, 135)):
+            first.send(type="colour", name=name)
+            self.wait(first, lambda state: state["colour"] == name)
+            first.wait_steps(3)
+            frame = first.frames[-1]
+            self.assertTrue(least <= min(frame.colours) and max(frame.colours) <= most, (name, min(frame.colours), max(frame.colours)))
+            self.assertGreater(frame.high, frame.low)
+        first.send(type="gravity", numbers=[0., 0., -30.])
+        first.wait_steps(20)  # and a body that is bent has all colours
+        self.assertEqual((min(first.frames[-1].colours), max(first.frames[-1].colours)), (0, 255))
+
+    def test_poses_lead_or_guide(self):
+        """The scaled energy, which leads, is the page's own choice; a body that is dragged takes more of a pose with it."""
+        here, first = self.server.log.parent, self.first
+        self.assertEqual((first.scene["energy"], first.scene["chooses_energy"]), ("scaled", True))
+        first.send(type="damping", numbers=[10., .01])
+        first.grab(first.farthest(), hard=True)
+        first.move((3.6, 0., 1.))
+
+        def weight():
+            first.wait_steps(60)
+            return first.wait_for("status")["weights"][1]
+        leads = weight()
+        first.send(type="energy", name="mixed")
+        guides = weight()
+        self.assertEqual(self.state(first)["settings"]["energy"], "mixed")
+        first.send(type="energy", name="scaled")
+        self.assertAlmostEqual(weight(), leads, delta=.02)
+        self.assertGreater(leads, 1.3 * guides)
+        first.send(type="energy", name="gentle")
+        self.assertIn("no such energy", first.wait_for("refused")["text"])
+        for energy in "mixed", "blended":
+            (here / "own.prm").write_text(prm({**BAR, "Examples/Energy": energy}))
+            with Server(here / "own.prm", log=here / "own.txt") as server, Viewer(server) as viewer:
+                self.assertEqual((viewer.scene["energy"], viewer.scene["chooses_energy"]), (energy, energy == "mixed"))
 
     def test_an_example_by_hand_is_recorded(self):
         here = self.server.log.parent

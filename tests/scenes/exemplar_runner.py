@@ -96,7 +96,7 @@ def words_of_libraries(program):
             if not line.startswith(("exemplar: ", "Warning: "))}
 
 
-MEANT = re.compile("Warning: (Its own weight makes this body sag|With a Poisson's ratio of .* linear tetrahedra without patches lock"
+MEANT = re.compile("Warning: (Its own weight makes this body sag|This body can hardly stand|With a Poisson's ratio of .* linear tetrahedra without patches lock"
                    "|Cells have turned by up to .* but Model/Strain = linear|No step ends near Obstacles/)")
 
 

@@ -58,17 +58,16 @@ class Gltf:
         return {node["name"]: (i, self.json["meshes"][node["mesh"]]) for i, node in enumerate(self.json["nodes"]) if "mesh" in node}
 
     def frames(self, name, attribute="POSITION"):
-        """Of each frame the places (or normals, not of unit length) of a mesh's primitives, one after the other, in the axes of the
-        run."""
+        """Of each frame the places (or normals, not of unit length) of a mesh's vertices, which all of its primitives share, in the axes of
+        the run."""
         node, mesh = self.meshes()[name]
         motion, = (i for i, other in enumerate(self.json["nodes"]) if node in other.get("children", []))
-        assert self.json["nodes"][0]["children"] == [motion] and self.json["scenes"][self.json["scene"]]["nodes"] == [0]
+        assert self.json["nodes"][0]["children"][0] == motion and self.json["scenes"][self.json["scene"]]["nodes"] == [0]
         rotations, translations, weights = (self.keys(*what) for what in ((motion, "rotation"), (motion, "translation"), (node, "weights")))
-        rest, targets = [], None
-        for primitive in mesh["primitives"]:
-            rest += self.accessor(primitive["attributes"][attribute])
-            found = [self.accessor(target[attribute]) for target in primitive.get("targets", [])]
-            targets = found if targets is None else [a + b for a, b in zip(targets, found, strict=True)]
+        first = mesh["primitives"][0]
+        assert all({**primitive, "indices": 0, "material": 0} == {**first, "indices": 0, "material": 0} for primitive in mesh["primitives"])
+        rest = self.accessor(first["attributes"][attribute])
+        targets = [self.accessor(target[attribute]) for target in first.get("targets", [])]
         for k, q in enumerate(rotations):
             t = translations[k] if attribute == "POSITION" else (0, 0, 0)
             row = []

@@ -153,7 +153,23 @@ class Characters(SceneTest):
         found = self.use("added")
         self.assertEqual(found["said"], "Done.")
         self.assertIn("set Weights = additive\n", found["prm"])
+        self.assertIn("set Energy = scaled\n", found["prm"])  # keys lead
         self.assertEqual(found["keys"], ["Basis", "bent"])
+        self.assert_shows_the_run(found)
+
+    def test_keyed_values_are_the_weights(self):
+        """Through the program and back they are the same to .1 %, in each frame."""
+        found = self.use("keyed_weights")
+        self.assertIn("shape keys of bar are 0 in all frames", found["still"])
+        self.assertIn("Regions are Found", found["painted"])
+        self.assertIn("Done.", found["said"])
+        for line in ("Weights = prescribed", "Weights file = weights.csv"):
+            self.assertIn(f"set {line}\n", found["prm"])
+        self.assertNotIn("set Energy", found["prm"])
+        self.assertGreater(max(sum(row) for row in found["wanted"]), 1.2)
+        self.assertEqual(len(found["values"]), 16)
+        for values, wanted in zip(found["values"], found["wanted"]):
+            self.assertLess(max(abs(a - b) for a, b in zip(values, wanted)), 1e-3)
         self.assert_shows_the_run(found)
 
     def test_regions_weights_and_damping(self):

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The importance is a dial: every quarter of its range moves a body that its handles drag."""
 
+import math
 import unittest
 
 from exemplar_runner import SceneTest, bend, nodes_of, read_csv, read_msh, write_msh
+from hand_mesh import Hand, half_way
 
 BAR = {
     "Scene": "static",
@@ -61,6 +63,26 @@ class Importance(SceneTest):
                 tags = [2] * n_tags
             elements.append([number, kind, n_tags, *tags, *nodes])
         write_msh(self.directory / "halves.msh", msh._replace(elements=elements))
+
+    def test_a_fingertip_closes_the_hand(self):
+        """Taken half of the way to its place in the fist, it brings the other fingers with it where the pose leads, and few of them where it
+        guides."""
+        hand = Hand()
+        hand.write(self.directory)
+        weights, ways = {}, {}
+        for energy in "scaled", "mixed":
+            run = self.attempt({**half_way(hand), "Examples/Energy": energy, "Examples/Importance": "0.8", "Output/Every": "0"}, output=energy)
+            self.assertEqual(run.status, 0, run.stderr)
+            weights[energy] = read_csv(run.output)[-1]["weight_1"]
+            rest, end = (read_msh(file).nodes for file in (self.directory / "hand.msh", run.output / "final.msh"))
+            tip, goal = (hand.fingertip(3, is_fist) for is_fist in (False, True))
+            node = min(rest, key=lambda i: math.dist(rest[i], tip))
+            way = [b - a for a, b in zip(tip, goal)]
+            ways[energy] = sum((b - a) * c for a, b, c in zip(rest[node], end[node], way)) / sum(c * c for c in way)
+        self.assertGreater(weights["scaled"], .8)
+        self.assertLess(weights["mixed"], .65)
+        self.assertGreater(ways["scaled"], .3)  # of the little finger, which nothing holds
+        self.assertGreater(ways["scaled"], 1.5 * ways["mixed"])
 
     def test_of_a_half(self):
         """Stretched by m in the mean, with the stretch s as example: the halves have one stress, so that their strains are m and, more

@@ -49,6 +49,11 @@ $Elements
 $EndElements
 """
 
+# A box of 0.1 m that stands on a floor: rho g L / E is 1000 * 16 * 0.1 / 1e4.
+STANDING = {**{key: value for key, value in BAR.items() if not key.startswith(("Handles", "Time"))}, "Scene": "dynamic", "Mesh/Box size": "0.1, 0.1, 0.1",
+            "Mesh/Box cells": "1, 1, 1", "Material/Young's modulus": "1e4", "Loads/Gravity": "0, 0, -16", "Time/Step": "1e-3", "Time/End": "1e-3",
+            "Obstacles/Names": "floor", "Obstacles/floor/Shape": "plane 0 0 -0.06  0 0 1"}
+
 
 class Outputs(SceneTest):
     def test_files(self):
@@ -334,6 +339,8 @@ class Outputs(SceneTest):
             ({**BAR, "Material/Young's modulus": "10"}, ["Young's modulus of 10 Pa", "1e6 are one MPa"]),
             ({**BAR, "Loads/Gravity": "0, 0, -100"}, ["sag further than it is long (rho g L / E = 0.2;"]),
             ({**BAR, "Loads/Gravity": "0, 0, -15"}, ["sag by some 30 % of its length (rho g L / E = 0.03;"]),
+            ({**STANDING, "Contact/Self": "true"}, ["strains it by some 16 % at the foot (rho g L / E = 0.16", "make steps slow", "of 8e+04 Pa or more"]),
+            ({**STANDING, "Material/Young's modulus": "2e4"}, []),
             ({**pulled, motion: "0; 0; sin(90*t)"}, ["sin(90*t) goes up to 14.3 turns", "write 90*pi/180."]),
             ({**pulled, motion: "300*t; 0; 0"}, ["150 m in a step, 61.2 times the size of the body (2.45 m)"]),
             ({**pulled, motion: "100*t; 0; 0", "Time/Increments": "50"}, ["up to 100 m, 40.8 times"]),

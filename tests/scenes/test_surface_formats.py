@@ -123,6 +123,17 @@ class SurfaceFormats(SceneTest):
                          [f for f, group in enumerate(self.surface.groups) if group == "ends"])
         self.assertEqual(len(groups), 5)
 
+    def test_usda_without_cells_and_normals(self):
+        scene = {**SCENE, "Output/Formats": "usda", "Time/End": "0.05"}
+        whole = self.solve(scene, output="whole")
+        less = self.solve({**scene, "Output/USD cells": "false", "Output/USD normals": "false"}, output="less")
+        prims, fewer = (read_usda_prims(output / "animation.usda") for output in (whole, less))
+        self.assertEqual({name for name in prims if name not in fewer}, {'def TetMesh "cells"'})
+        mesh, plain = (of['def Mesh "surface"'] for of in (prims, fewer))
+        self.assertEqual({name for name in mesh if name not in plain}, {name for name in mesh if "normals" in name})
+        self.assertEqual({name: mesh[name] for name in plain}, plain)
+        self.assertLess((less / "animation.usda").stat().st_size, .6 * (whole / "animation.usda").stat().st_size)
+
     def test_usda_moves_shades_and_fills(self):
         """Velocities are those of implicit Euler; normals look away from the body; cells fill the boundary; materials."""
         self.write("bar.mtl", "newmtl paint of top\nKd 0.25 0.5 1\nNs 250\nmap_Kd sky.png\nnewmtl paint of front\nKd 1 0 0\nd 0.5\n")

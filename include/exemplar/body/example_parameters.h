@@ -20,6 +20,14 @@ namespace Exemplar
     mixed
   };
 
+  /// The value of Examples/Energy that a scene calls so; nothing for another text.
+  std::optional<ExampleEnergy>
+  energy_of_name(const std::string &name);
+
+  /// What a scene calls a value of Examples/Energy.
+  const std::string &
+  name_of_energy(ExampleEnergy energy);
+
   /// Admissible example weights, or prescribed ones.
   enum class WeightRule
   {

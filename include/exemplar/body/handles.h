@@ -35,11 +35,23 @@ namespace Exemplar
             const NamedNodes                    &nodes   = {},
             const NamedMotions                  &motions = {});
 
+    /// Whether a handle also holds the nodes on edges between its vertices, slopes of a shell included,
+    /// or the nodes that are given alone.
+    enum class Edges
+    {
+      between_vertices,
+      as_given
+    };
+
     /// Add a handle of all components of some nodes of this process, ascending, that `motion`
-    /// moves; it replaces a released handle of that name. Throws UserError if a handle of that name
+    /// moves; it replaces a released handle of that name. In quadratic cells the nodes are vertices, and middles of
+    /// edges are always held. Throws UserError if a handle of that name
     /// holds nodes. This and the two functions below are collective.
     void
-    grab(const std::string &name, const std::vector<unsigned int> &nodes, Motion motion);
+    grab(const std::string               &name,
+         const std::vector<unsigned int> &nodes,
+         Motion                           motion,
+         Edges                            edges = Edges::between_vertices);
 
     /// Release a handle until hold(). Throws UserError if no handle has this name, or if it has a
     /// From or Until.

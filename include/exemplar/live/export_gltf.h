@@ -2,6 +2,8 @@
 #ifndef exemplar_live_export_gltf_h
 #define exemplar_live_export_gltf_h
 
+#include <exemplar/live/crossings.h>
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,10 +23,14 @@ namespace Exemplar::Live
   /// What a file holds.
   struct GltfReport
   {
-    std::size_t              n_frames = 0, n_vertices = 0, n_examples = 0, n_shapes = 0;
-    std::size_t              n_bytes = 0;
-    double                   error   = 0.; ///< largest distance of a vertex from its frame [m]
-    double                   relative_error = 0.; ///< over the diagonal of the body at rest
+    std::size_t n_frames = 0, n_examples = 0, n_shapes = 0;
+    std::size_t n_vertices     = 0; ///< of the surfaces, in whose order the file has them
+    std::size_t n_copies       = 0; ///< behind them, where a vertex has several texture points
+    std::size_t n_bytes        = 0;
+    double      error          = 0.; ///< largest distance of a vertex from its frame [m]
+    double      relative_error = 0.; ///< over the diagonal of the body at rest
+    std::size_t n_obstacles    = 0;
+    std::optional<Crossings> crossings = {}; ///< of a run with contact
     std::vector<std::string> warnings;
   };
 

@@ -32,7 +32,7 @@ namespace Exemplar::Live
     /// All that is held by hand, by the names that viewers gave.
     struct Held
     {
-      std::map<std::string, Pull>                      pulls, handles;
+      std::map<std::string, Pull>                      pulls, handles, obstacles;
       std::map<std::string, std::vector<unsigned int>> pins; ///< nodes, ascending
       WeightSliders                                    weights;
       double importance = 1.; ///< the last one above its lower bound
@@ -53,6 +53,10 @@ namespace Exemplar::Live
     /// Releases all pulls; pins stay.
     Session
     let_go_of_all(const Problem &problem);
+
+    /// Ends the motion of the scene's handles and of obstacles where they were before follow(), when `before` was held.
+    Session
+    stop_handles(const Held &before, const Problem &problem);
 
     bool
     pulls() const
@@ -107,6 +111,12 @@ namespace Exemplar::Live
     move_handle(const Command &command, const Problem &problem);
     SessionEvent
     set(const Command &command, const Problem &problem);
+    SessionEvent
+    put(const Command &command, const Problem &problem);
+    Session
+    carry(const Command &command, const Problem &problem);
+    Session
+    take_away(const Command &command, const Problem &problem);
 
     /// Lets the nodes of a patch follow the pointer, without a spring.
     Session

@@ -38,15 +38,22 @@ namespace Exemplar::Live
     {
       return targets.size() - n_examples;
     }
+
+    /// Where a player shows the vertices in a frame [m].
+    Places
+    places(std::size_t frame) const;
   };
 
   /// The error, relative to the diagonal, that decides how many shapes there are by default.
   constexpr double default_error_of_shapes = 0.005;
 
+  /// The same of a run with contact, whose surfaces are as near to each other as default_error_of_shapes.
+  constexpr double default_error_in_contact = 0.0005;
+
   /// Examples keep the weights of the run. Of what is left the first shape is the mean of all
   /// frames, with the weight 1, and the others are singular vectors, largest first, with weights
   /// from 0 to 1: `n_shapes` in all, fewer if nothing is left, or as many as bring all vertices
-  /// within default_error_of_shapes. Rigid motions are those that bring the body at rest nearest to
+  /// within the default error. Rigid motions are those that bring the body at rest nearest to
   /// each frame.
   KeyedShapes
   keyed_shapes(const RunMotion                   &motion,

@@ -32,6 +32,29 @@ namespace Exemplar::Live
   public:
     ObstacleFrames(const Problem &problem, const SpaceVector3 &up);
 
+    /// An obstacle as viewers know it.
+    struct Shown
+    {
+      std::string  name;
+      unsigned int n_triangles; ///< of the surface, behind those of the obstacles before
+      bool         is_movable;  ///< by hand: it has an end on all sides
+      bool         has_left;    ///< taken away: nothing of it is seen
+    };
+
+    /// The obstacles of the surface, in its order.
+    const std::vector<Shown> &
+    shown() const
+    {
+      return list;
+    }
+
+    /// Whether the problem has had other obstacles when this was made.
+    bool
+    are_old(const Problem &problem) const
+    {
+      return present(problem) != names;
+    }
+
     /// Their surface, and where they are.
     std::vector<Bytes>
     welcome(const Problem &problem) const;
@@ -41,12 +64,18 @@ namespace Exemplar::Live
     beside(const Bytes &frame, const Problem &problem);
 
   private:
+    /// Names of the obstacles that have not left.
+    static std::vector<std::string>
+    present(const Problem &problem);
+
     Bytes
     message(const Problem &problem, const std::vector<SurfaceMesh::Vertex> &places) const;
 
     std::vector<SurfaceMesh::Vertex>
     places(const Problem &problem) const;
 
+    std::vector<std::string>         names; ///< of those that were present
+    std::vector<Shown>               list;
     std::optional<ObstaclePicture>   picture;
     BodySurface                      surface;
     std::vector<SurfaceMesh::Vertex> at_start;

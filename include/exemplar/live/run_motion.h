@@ -34,10 +34,14 @@ namespace Exemplar::Live
     std::vector<Places>              examples; ///< poses of the examples that differ from rest
     std::vector<std::string>         names;    ///< of the examples
     std::vector<Places>              frames;
-    std::vector<std::vector<double>> weights;         ///< by frame, one an example
-    std::vector<double>              times;           ///< at which a player shows the frames [s]
-    bool                             z_is_up = false; ///< else y is
-    std::vector<std::string>         notes;           ///< what could not be taken over, sentences
+    std::vector<std::vector<double>> weights; ///< by frame, one an example
+    std::vector<double>              times;   ///< at which a player shows the frames [s]
+    bool                             z_is_up     = false; ///< else y is
+    bool                             has_contact = false; ///< obstacles, or surfaces that meet
+    std::vector<std::string>         names_of_obstacles;  ///< in the order of their surfaces
+    std::vector<std::vector<unsigned int>> obstacles;     ///< their polygons; empty: none are shown
+    std::vector<Places>      obstacle_frames; ///< places of the vertices of these, by frame
+    std::vector<std::string> notes;           ///< what could not be taken over, sentences
   };
 
   /// Read the motion of the surface that a run carries, with what it wears, from its point caches;

@@ -49,6 +49,10 @@ namespace Exemplar::Live
     void
     welcome_again(Welcome other);
 
+    /// The same where the scene has other obstacles: viewers that are there get `binaries`, which tell of these.
+    void
+    show_obstacles(Welcome other, const std::vector<Bytes> &binaries);
+
     /// Adds a viewer; false if there are as many as are allowed.
     bool
     join(const std::shared_ptr<Viewer> &viewer);

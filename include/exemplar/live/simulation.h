@@ -30,6 +30,8 @@ namespace Exemplar::Live
     std::function<void(Bytes)>       frame;
     std::function<void(std::string)> text;    ///< JSON
     std::function<void(Welcome)>     welcome; ///< for all viewers: the scene is another one
+    /// The welcome for later viewers, and the messages for present ones: the scene has other obstacles.
+    std::function<void(Welcome, std::vector<Bytes>)> obstacles;
   };
 
   /// The simulation in its own thread: steps of one length at the pace of the clock, between which
@@ -70,10 +72,10 @@ namespace Exemplar::Live
     void
     make_step();
 
-    /// After a step that failed: releases all pulls; after repeated failures, begins anew and
-    /// pauses.
+    /// After a step that failed, before whose motions `before` was held: releases all pulls and stops handles that
+    /// were dragged; after repeated failures, begins anew and pauses.
     void
-    recover(const std::string &message);
+    recover(const std::string &message, const Hand::Held &before);
 
     void
     undo();
@@ -94,6 +96,10 @@ namespace Exemplar::Live
     void
     choose_colour(const std::string &name);
 
+    /// Tell viewers if the obstacles are others than they know.
+    void
+    show_obstacles();
+
     void
     show_state();
 
@@ -103,8 +109,8 @@ namespace Exemplar::Live
     void
     tell(const std::string &type, const std::string &text) const;
 
-    /// Values at the vertices of the field that a viewer chose; empty: none is chosen.
-    std::vector<double>
+    /// The field that a viewer chose, at the vertices; empty: none is chosen.
+    Colours
     colours() const;
 
     /// Data shown beside the body.

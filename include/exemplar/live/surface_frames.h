@@ -56,14 +56,21 @@ namespace Exemplar::Live
     double        time    = 0.; ///< [s]
   };
 
+  /// Values at the vertices that are shown as colours; empty: none.
+  struct Colours
+  {
+    std::vector<double> values     = {};
+    double              least_size = 0.; ///< of the interval of values that all colours span
+  };
+
   /// A frame: places as 16-bit integers in the box of the frame, so that each coordinate is known
-  /// to 1/131068 of the box' edge along it. `colours` are values at the vertices, sent as one byte
-  /// each; empty: none. Bytes in the order of doc/live.md.
+  /// to 1/131068 of the box' edge along it. Colours are sent as one byte
+  /// each. Bytes in the order of doc/live.md.
   Bytes
-  frame_message(const FrameHead           &head,
-                const BodySurface         &surface,
-                const Vector              &positions,
-                const std::vector<double> &colours = {});
+  frame_message(const FrameHead   &head,
+                const BodySurface &surface,
+                const Vector      &positions,
+                const Colours     &colours = {});
 
   /// Largest error of a coordinate in such a frame [m].
   double

@@ -3,6 +3,7 @@
 #define exemplar_live_told_h
 
 #include <exemplar/live/hand.h>
+#include <exemplar/live/obstacle_frames.h>
 #include <exemplar/live/pace.h>
 #include <exemplar/live/skin_frames.h>
 #include <exemplar/live/stage.h>
@@ -30,7 +31,11 @@ namespace Exemplar::Live
 
   /// Settings, held parts and choices: all that a page shows beside the body's positions.
   std::string
-  state_text(const Stage &stage, const Hand &hand, const BodySurface &surface, const Wish &wish);
+  state_text(const Stage          &stage,
+             const Hand           &hand,
+             const BodySurface    &surface,
+             const ObstacleFrames &obstacles,
+             const Wish           &wish);
 
   /// Whether a text is one of state_text().
   bool

@@ -80,8 +80,25 @@ namespace Exemplar
     bool
     is_there(const double time) const
     {
-      return when.holds(time, rounding);
+      return !is_gone && when.holds(time, rounding);
     }
+
+    /// Let it be nowhere from now on.
+    void
+    leave()
+    {
+      is_gone = true;
+    }
+
+    bool
+    has_left() const
+    {
+      return is_gone;
+    }
+
+    /// Let it go straight, between two times [s], to this displacement [m] from where it is without being carried.
+    void
+    carry(const SpaceVector3 &to, double begin, double end);
 
     /// Whether it is there at all times.
     bool
@@ -151,6 +168,15 @@ namespace Exemplar
     /// The pose. Throws SolverFailure if it is not finite or too far away.
     ObstaclePose
     checked(const ObstaclePose &pose, double time) const;
+    /// A displacement [m] that grows between two times [s] from one to another.
+    struct Carriage
+    {
+      double       begin = 0., end = 0.;
+      SpaceVector3 from, to;
+
+      SpaceVector3
+      at(double time) const;
+    };
 
     static constexpr double rounding = 1e-12; ///< of times [s]
 
@@ -161,6 +187,8 @@ namespace Exemplar
     Expression      motion, turn;
     ObstacleSurface track; ///< what it follows: without the surface
     SpaceVector3    shift;
+    Carriage        carried    = {};
+    bool            is_gone    = false;
     unsigned int    n_set_back = 0;
   };
 

@@ -138,7 +138,7 @@ namespace Exemplar
 
     /// The attributes that are constant in time, faces and texture coordinates.
     std::string
-    topology_of(const SurfaceMesh &surface)
+    topology_of(const SurfaceMesh &surface, const bool with_normals)
     {
       std::vector<unsigned int> counts, corners;
       for (const auto &face : surface.faces)
@@ -150,7 +150,9 @@ namespace Exemplar
              "        int[] faceVertexCounts = "
              + list_of_numbers(counts)
              + "\n        int[] faceVertexIndices = " + list_of_numbers(corners)
-             + "\n        normal3f[] normals (\n            interpolation = \"vertex\"\n        )\n"
+             + (with_normals ? "\n        normal3f[] normals (\n            interpolation = "
+                               "\"vertex\"\n        )\n"
+                             : "\n")
              + texture_of(surface);
     }
 
@@ -331,11 +333,13 @@ namespace Exemplar
     {
     public:
       explicit UsdaWriter(const FrameSubject &subject)
-          : prim(prim_of(subject.carried)), topology(topology_of(*subject.surface)),
+          : prim(prim_of(subject.carried)),
+            topology(topology_of(*subject.surface, subject.playback.with_normals)),
             groups(groups_of(*subject.surface)),
             materials(materials_of(*subject.surface, subject.folder)),
-            cells(subject.carried.empty() && !subject.mesh.is_shell() ? topology_of(subject.mesh)
-                                                                      : ""),
+            cells(subject.carried.empty() && !subject.mesh.is_shell() && subject.playback.with_cells
+                      ? topology_of(subject.mesh)
+                      : ""),
             faces(subject.surface->faces), n_nodes(subject.mesh.n_nodes()),
             meters_per_unit(subject.mesh.get_scale()), playback(subject.playback),
             has_velocities(playback.has_velocities && subject.carried != name_of_obstacles)
@@ -435,7 +439,9 @@ namespace Exemplar
                "    def Mesh \""
             << prim << "\"\n    {\n"
             << topology;
-        std::vector<Sampled> of_surface{ Sampled::points, Sampled::extent, Sampled::normals };
+        std::vector<Sampled> of_surface{ Sampled::points, Sampled::extent };
+        if (playback.with_normals)
+          of_surface.push_back(Sampled::normals);
         if (has_velocities)
           of_surface.push_back(Sampled::velocities);
         write_samples(out, of_surface, times, sample_of);

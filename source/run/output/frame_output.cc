@@ -114,6 +114,8 @@ namespace Exemplar
     if (scene.scene == SceneKind::dynamic) // 1 / 0.01 without rounding errors
       result.frames_per_second = std::round(1e6 / result.interval) / 1e6;
     result.has_velocities = scene.scene == SceneKind::dynamic;
+    result.with_cells     = scene.output.usd_cells;
+    result.with_normals   = scene.output.usd_normals;
     const auto &g         = scene.loads.gravity;
     result.z_is_up        = std::abs(g[2]) > std::abs(g[1]);
     return result;

@@ -2,6 +2,7 @@
 #include <exemplar/base/errors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/base/plain_name.h>
+#include <exemplar/potential/contact_clearance.h>
 #include <exemplar/potential/fibre_tension_term.h>
 #include <exemplar/potential/load_term.h>
 #include <exemplar/potential/obstacle_term.h>
@@ -172,6 +173,27 @@ namespace Exemplar
   }
 
   void
+  Problem::check_energy(const ExampleEnergy energy) const
+  {
+    if (examples.poses.size() == 0 || parameters.scene == SceneKind::interpolation)
+      throw UserError(parameters.name
+                      + ": only a static or dynamic scene with examples has an energy of examples "
+                        "to change. Give Examples/Poses and an Importance above 0.");
+    SceneParameters changed = parameters;
+    changed.examples.energy = energy;
+    CompleteScene(std::move(changed)); // checks the combination
+  }
+
+  void
+  Problem::set_energy(const ExampleEnergy energy)
+  {
+    check_energy(energy);
+    changes.count("energy");
+    parameters.examples.energy = energy;
+    refresh(new_examples);
+  }
+
+  void
   Problem::hold_weights(const std::vector<double> &weights)
   {
     examples.weights.hold(weights);
@@ -291,8 +313,8 @@ namespace Exemplar
     refresh(new_terms);
   }
 
-  void
-  Problem::add_obstacle(const ObstacleParameters &obstacle, const ObstacleSurface &surface)
+  std::unique_ptr<Obstacles>
+  Problem::make_obstacle(const ObstacleParameters &obstacle, const ObstacleSurface &surface) const
   {
     require_plain_name(obstacle.name, "Obstacle");
     CompleteScene changed = parameters;
@@ -302,21 +324,15 @@ namespace Exemplar
                         + "' already. Give another name.");
     changed.obstacles.named = { obstacle };
     changed.check_obstacles();
-    // apart from the others, so that nothing is changed if it is refused
-    auto added = std::make_unique<Obstacles>(changed.obstacles, body.mesh.diameter(),
-                                             ObstacleSurfaces{ { obstacle.name, surface } });
+    return std::make_unique<Obstacles>(changed.obstacles, body.mesh.diameter(),
+                                       ObstacleSurfaces{ { obstacle.name, surface } });
+  }
+
+  void
+  Problem::append_obstacle(const ObstacleParameters &obstacle, std::unique_ptr<Obstacles> added)
+  {
     if (actions.contact_surface == nullptr)
       actions.contact_surface = std::make_unique<ContactSurface>(body.mesh, body.fe_space);
-    try
-    {
-      check_obstacle_motions(*added, body, time_axis);
-      suit_obstacles(*added, *actions.contact_surface, body, state.positions, state.time,
-                     actions.notes);
-    }
-    catch (const SolverFailure &failure) // of a formula
-    {
-      throw UserError(failure.what());
-    }
     count_change("add_obstacle()");
     parameters.obstacles.named.push_back(obstacle);
     if (actions.obstacles != nullptr)
@@ -332,6 +348,71 @@ namespace Exemplar
     for (auto &term : terms)
       potential.add_term(std::move(term));
     refresh(new_terms);
+  }
+
+  void
+  Problem::add_obstacle(const ObstacleParameters &obstacle, const ObstacleSurface &surface)
+  {
+    // apart from the others, so that nothing is changed if it is refused
+    auto added = make_obstacle(obstacle, surface);
+    if (actions.contact_surface == nullptr)
+      actions.contact_surface = std::make_unique<ContactSurface>(body.mesh, body.fe_space);
+    try
+    {
+      check_obstacle_motions(*added, body, time_axis);
+      suit_obstacles(*added, *actions.contact_surface, body, state.positions, state.time,
+                     actions.notes);
+    }
+    catch (const SolverFailure &failure) // of a formula
+    {
+      throw UserError(failure.what());
+    }
+    append_obstacle(obstacle, std::move(added));
+  }
+
+  void
+  Problem::put_obstacle(const ObstacleParameters &obstacle)
+  {
+    append_obstacle(obstacle, make_obstacle(obstacle, {}));
+  }
+
+  bool
+  Problem::is_clear(const ObstacleParameters &obstacle) const
+  {
+    const auto           added = make_obstacle(obstacle, {});
+    const ContactSurface surface(body.mesh, body.fe_space);
+    StandingObstacle     now(added->all[0]);
+    now.move_to(state.time);
+    const Clearance room
+        = clearance(surface, *added, now, 0, state.positions, added->width, body.exchange());
+    return !room.is_crossed && room.least >= added->width;
+  }
+
+  Obstacle &
+  Problem::find_obstacle(const std::string &name)
+  {
+    if (actions.obstacles != nullptr)
+      for (Obstacle &obstacle : actions.obstacles->all)
+        if (obstacle.name() == name && !obstacle.has_left())
+          return obstacle;
+    throw UserError("There is no obstacle '" + name + "'.");
+  }
+
+  void
+  Problem::carry_obstacle(const std::string  &name,
+                          const SpaceVector3 &displacement,
+                          const double        step_size)
+  {
+    find_obstacle(name).carry(displacement, state.time, state.time + step_size);
+    count_change("carry_obstacle()");
+  }
+
+  void
+  Problem::remove_obstacle(const std::string &name)
+  {
+    find_obstacle(name).leave();
+    count_change("remove_obstacle()");
+    refresh(new_obstacles);
   }
 
   Laboratory &

@@ -22,6 +22,8 @@ namespace Exemplar
           : problem(problem), holding(problem.constraints.handles.holding()),
             material(problem.body.material)
       {
+        for (const ObstacleParameters &obstacle : problem.parameters.obstacles.named)
+          obstacles.insert(obstacle.name);
       }
 
       Rehearsal(const Rehearsal &) = delete;
@@ -44,8 +46,13 @@ namespace Exemplar
           use_spring(event);
         else if (event.what == "hold" || event.what == "shift" || event.what == "let go")
           use_handle(event);
+        else if (event.what == "ball" || event.what == "block" || event.what == "carry"
+                 || event.what == "take away")
+          use_obstacle(event);
         else if (event.what == "importance")
           problem.check_importance(event.numbers[0]);
+        else if (event.what == "energy")
+          problem.check_energy(energy_of(event));
         else if (event.what == "tension")
           problem.check_tension(event.name, event.numbers[0]);
         else if (event.what == "weights")
@@ -91,6 +98,22 @@ namespace Exemplar
       }
 
       void
+      use_obstacle(const SessionEvent &event)
+      {
+        if (const auto put = obstacle_of(event))
+        {
+          put->check();
+          if (!all_names.insert(event.name).second || obstacles.count(event.name) > 0)
+            throw UserError("there is an obstacle of this name already.");
+          obstacles.insert(event.name);
+        }
+        else if (obstacles.count(event.name) == 0)
+          throw UserError("there is no such obstacle. One is made by ball or block.");
+        else if (event.what == "take away")
+          obstacles.erase(event.name);
+      }
+
+      void
       use_handle(const SessionEvent &event)
       {
         if (event.what == "hold")
@@ -102,9 +125,11 @@ namespace Exemplar
                 for (unsigned int handle = 0; handle < handles.size(); ++handle)
                   if (handles.name(handle) == event.name)
                     handles.let_go(event.name);
-                handles.grab(event.name, event.nodes,
-                             [](const std::vector<dealii::Point<3>> &rest, double)
-                             { return std::vector<dealii::Tensor<1, 3>>(rest.size()); });
+                handles.grab(
+                    event.name, event.nodes,
+                    [](const std::vector<dealii::Point<3>> &rest, double)
+                    { return std::vector<dealii::Tensor<1, 3>>(rest.size()); },
+                    Handles::Edges::as_given);
               });
           held.insert(event.name);
         }
@@ -120,7 +145,8 @@ namespace Exemplar
       Problem                            &problem;
       const std::vector<Handles::Holding> holding; ///< of the handles at the beginning
       Material                            material;
-      std::set<std::string>               springs, held; ///< by name
+      std::set<std::string> springs, held, obstacles; ///< by name, those that are there
+      std::set<std::string> all_names;                ///< of obstacles that were put
     };
   } // namespace
 
@@ -131,7 +157,7 @@ namespace Exemplar
     for (const SessionEvent &event : session)
     {
       const std::string title = title_of(event, file);
-      check_form(event, problem.body.mesh.n_nodes(), title);
+      check_form(event, problem.body.fe_space, title);
       try
       {
         rehearsal.follow(event);

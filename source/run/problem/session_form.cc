@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
+#include <exemplar/base/number_text.h>
 #include <exemplar/run/problem/session_form.h>
 
 #include <fmt/core.h>
@@ -31,10 +32,15 @@ namespace Exemplar
                                                   { "poisson", { 0, 1 } },
                                                   { "density", { 0, 1 } },
                                                   { "importance", { 0, 1 } },
+                                                  { "energy", { 0, 0 } },
                                                   { "tension", { 0, 1 } },
                                                   { "weights", { 0, any_number } },
                                                   { "gravity", { 0, 3 } },
                                                   { "damping", { 0, 2 } },
+                                                  { "ball", { 0, 5 } },
+                                                  { "block", { 0, 7 } },
+                                                  { "carry", { 0, 3 } },
+                                                  { "take away", { 0, 0 } },
                                                   { "forget", { 0, 0 } } };
 
     std::string
@@ -99,9 +105,16 @@ namespace Exemplar
   }
 
   void
-  check_form(const SessionEvent &event, const unsigned int n_nodes, const std::string &title)
+  check_form(const SessionEvent &event, const FESpace &fe_space, const std::string &title)
   {
     check_counts(event, title);
+    if (event.what == "energy" && !energy_of_name(event.name))
+      throw UserError(title
+                      + ": this is no energy of the examples. Allowed: scaled, blended, mixed.");
+    // slopes of a shell are held as nodes of their own
+    const unsigned int n_nodes = event.what == "hold" && fe_space.is_shell()
+                                     ? fe_space.n_nodes()
+                                     : fe_space.numbering().n_vertices();
     for (const unsigned int node : event.nodes)
       if (node >= n_nodes)
         throw UserError(fmt::format("{}: there is no node {}; nodes are counted from 0, and there "
@@ -111,6 +124,26 @@ namespace Exemplar
       check_grab(event, title);
     else if (event.what == "hold")
       check_hold(event, title);
+  }
+
+  std::optional<ObstacleParameters>
+  obstacle_of(const SessionEvent &event)
+  {
+    if (event.what != "ball" && event.what != "block")
+      return {};
+    ObstacleParameters obstacle;
+    obstacle.name     = event.name;
+    obstacle.shape    = event.what == "ball" ? "sphere" : "box";
+    obstacle.friction = event.numbers.back();
+    for (std::size_t i = 0; i + 1 < event.numbers.size(); ++i)
+      obstacle.shape += " " + shortest_text(event.numbers[i]);
+    return obstacle;
+  }
+
+  ExampleEnergy
+  energy_of(const SessionEvent &event)
+  {
+    return energy_of_name(event.name).value();
   }
 
   std::optional<ChangedConstants>

@@ -35,11 +35,21 @@ namespace Exemplar
   {
     check_form(event, problem.body.mesh.n_nodes(), title_of(event, file));
     problem.restart_audit("the session");
+    check_form(event, problem.body.fe_space, title_of(event, file));
     const std::vector<double> &numbers = event.numbers;
     if (const auto constants = constants_of(event))
       problem.set_material(*constants);
+    else if (const auto obstacle = obstacle_of(event))
+      problem.put_obstacle(*obstacle);
+    else if (event.what == "carry")
+      problem.carry_obstacle(event.name, SpaceVector3({ numbers[0], numbers[1], numbers[2] }),
+                             problem.parameters.time.step);
+    else if (event.what == "take away")
+      problem.remove_obstacle(event.name);
     else if (event.what == "importance")
       problem.set_importance(numbers[0]);
+    else if (event.what == "energy")
+      problem.set_energy(energy_of(event));
     else if (event.what == "tension")
       problem.set_tension(event.name, numbers[0]);
     else if (event.what == "weights")
@@ -130,14 +140,16 @@ namespace Exemplar
           for (unsigned int handle = 0; handle < handles.size(); ++handle)
             if (handles.name(handle) == event.name)
               handles.let_go(event.name);
-          handles.grab(event.name, nodes,
-                       [place](const std::vector<dealii::Point<3>> &, double)
-                       {
-                         std::vector<dealii::Tensor<1, 3>> moved = place->displacements;
-                         for (dealii::Tensor<1, 3> &displacement : moved)
-                           displacement += place->shift;
-                         return moved;
-                       });
+          handles.grab(
+              event.name, nodes,
+              [place](const std::vector<dealii::Point<3>> &, double)
+              {
+                std::vector<dealii::Tensor<1, 3>> moved = place->displacements;
+                for (dealii::Tensor<1, 3> &displacement : moved)
+                  displacement += place->shift;
+                return moved;
+              },
+              Handles::Edges::as_given);
         });
     places[event.name] = place;
   }

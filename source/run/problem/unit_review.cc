@@ -38,6 +38,9 @@ namespace Exemplar
     // Sag relative to length, and strain, below which gravity is plausible.
     constexpr double great_sag = 0.2, great_strain = 0.05;
 
+    // Strain by its own weight with which a body on a floor is seen to sink, and one that is hardly seen.
+    constexpr double great_standing_strain = 0.1, good_standing_strain = 0.02;
+
     // Strain by a load beyond which it is implausible for the body's section and stiffness.
     constexpr double great_pull = 5.;
 
@@ -155,6 +158,35 @@ namespace Exemplar
           "held and how slender it is). If that is not meant, look at the units: Young's modulus "
           "is in Pa (1e6 are one MPa), lengths are in m (Mesh/Scale), gravity is in m/s^2.",
           how_far, short_text(ratio));
+    }
+
+    /// Warn of a body that rests on obstacles or on itself and that its own weight strains much.
+    Warning
+    review_standing(const Problem &problem, const BodyMeasures &measures)
+    {
+      const bool rests
+          = problem.actions.obstacles != nullptr || problem.actions.body_contacts != nullptr;
+      const double gravity = gravity_of(problem);
+      if (!rests || !(gravity > 0.) || problem.body.mesh.is_shell()
+          || problem.parameters.loads.balanced)
+        return {};
+      double height = 0.; // of the box around the body, along gravity
+      for (unsigned int c = 0; c < 3; ++c)
+        height += std::abs(problem.parameters.loads.gravity[c]) / gravity * measures.size[c];
+      const double strain = measures.weight_over_stiffness(gravity) * height;
+      if (!(strain >= great_standing_strain))
+        return {};
+      const std::string costs = problem.actions.body_contacts != nullptr
+                                    ? " Parts that then lie on each other make steps slow."
+                                    : "";
+      return fmt::format(
+          "This body can hardly stand: its own weight strains it by some {} % at the foot (rho g L "
+          "/ E = {}, with its "
+          "height as L), so that it sinks down.{} If that is not meant, take a Young's modulus of "
+          "{} Pa or more, "
+          "or look at the units: lengths are in m (Mesh/Scale), gravity is in m/s^2.",
+          std::lround(100. * strain), short_text(strain), costs,
+          short_text(measures.soft_young * strain / good_standing_strain));
     }
 
     /// Warn of consistent masses in bodies that are heavier than stiff: a row of nodes beside a held one falls further than
@@ -346,10 +378,11 @@ namespace Exemplar
   {
     const BodyMeasures   measures = measure(problem.body);
     std::vector<Warning> found    = { review_size(problem, measures) };
+    const Warning weight = masses_matter(problem) ? review_weight(problem, measures) : Warning();
     if (masses_matter(problem))
-      found.insert(found.end(),
-                   { review_density(measures), review_stiffness(measures),
-                     review_weight(problem, measures), review_coupled_masses(problem, measures) });
+      found.insert(found.end(), { review_density(measures), review_stiffness(measures),
+                                  weight ? weight : review_standing(problem, measures),
+                                  review_coupled_masses(problem, measures) });
     found.insert(found.end(),
                  { review_step(problem), review_frames(problem), review_damping(problem),
                    review_force(problem, measures), review_angles(problem, measures) });

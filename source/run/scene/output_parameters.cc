@@ -31,6 +31,11 @@ namespace Exemplar
         "Formats of the frames. vtu shows the mesh, for ParaView; obj, ply, mdd, pc2 and "
         "usda show Mesh/Surface as the body carries it, in its unit and order of "
         "vertices.");
+    keys.add("USD cells", usd_cells,
+             "Whether usda has the body's tetrahedra as a guide, with their places in each frame.");
+    keys.add("USD normals", usd_normals,
+             "Whether usda has smooth normals of the surface in each frame; without them programs "
+             "make their own.");
     keys.add("Checkpoint minutes", checkpoint_minutes,
              "Minutes of run time between checkpoints. One is also written at the end and "
              "on Ctrl-C.",

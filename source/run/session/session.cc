@@ -39,6 +39,8 @@ namespace Exemplar
     {
       if (what == "grab" || what == "move" || what == "release")
         return "spring";
+      if (what == "ball" || what == "block" || what == "carry" || what == "take away")
+        return "obstacle";
       if (what == "hold" || what == "shift" || what == "let go")
         return "handle";
       return what;
@@ -123,14 +125,16 @@ namespace Exemplar
   {
     if (event.what == "forget")
       return;
+    // the name of an energy is its value
+    const std::string name = event.what == "energy" ? "" : event.name;
     const auto [place, is_new]
-        = indices.emplace(std::make_pair(kind_of(event.what), event.name), subjects.size());
+        = indices.emplace(std::make_pair(kind_of(event.what), name), subjects.size());
     if (is_new)
       subjects.emplace_back();
     Subject &subject = subjects[place->second];
-    if (event.what == "move" || event.what == "shift")
+    if (event.what == "move" || event.what == "shift" || event.what == "carry")
       subject.moved = event;
-    else if (event.what == "release" || event.what == "let go")
+    else if (event.what == "release" || event.what == "let go" || event.what == "take away")
     {
       subject.moved.reset();
       subject.ended = event;

@@ -24,6 +24,8 @@ namespace Exemplar
     double frames_per_second = 24.;
     bool   z_is_up           = false; ///< else y is
     bool   has_velocities    = false;
+    bool   with_cells        = true; ///< whether files of scenes have the cells
+    bool   with_normals      = true; ///< and normals
   };
 
   /// The objects that frames show; they outlive the writers.

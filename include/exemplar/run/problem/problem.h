@@ -66,6 +66,15 @@ namespace Exemplar
     void
     check_importance(double importance) const;
 
+    /// Between steps, let weights that are found minimise another of the examples' energies. Throws as
+    /// check_energy().
+    void
+    set_energy(ExampleEnergy energy);
+
+    /// Throws UserError for a scene without examples, an interpolation, and an energy that the scene does not allow.
+    void
+    check_energy(ExampleEnergy energy) const;
+
     /// Between steps, prescribe the examples' weights from the next step on, by region one after
     /// the other; empty: weights are unknown again. Throws UserError, with nothing changed, for
     /// weights that ExampleWeights::hold() refuses.
@@ -122,6 +131,25 @@ namespace Exemplar
     /// are refused, and for a name that one has. All processes must call this.
     void
     add_obstacle(const ObstacleParameters &obstacle, const ObstacleSurface &surface = {});
+
+    /// Between steps, add an obstacle of a shape without files that is clear of the body, as is_clear() says. Throws UserError as
+    /// add_obstacle().
+    void
+    put_obstacle(const ObstacleParameters &obstacle);
+
+    /// Whether the body is farther from such an obstacle than the distance from which it would push. Throws UserError as
+    /// add_obstacle().
+    bool
+    is_clear(const ObstacleParameters &obstacle) const;
+
+    /// Let an obstacle go straight, in the next step of this length [s], to this displacement [m] from where it would be
+    /// without. Throws UserError for a name that none has.
+    void
+    carry_obstacle(const std::string &name, const SpaceVector3 &displacement, double step_size);
+
+    /// Between steps, take an obstacle away. Its name stays in use. Throws UserError for a name that none has.
+    void
+    remove_obstacle(const std::string &name);
 
     /// The body of cells; not for a shell.
     ElasticPotential &
@@ -286,6 +314,17 @@ namespace Exemplar
     /// Make an increment that the audit has refused, with this report, again in parts, whose work is known better.
     SolveReport
     make_step_in_parts(const StepInterval &interval, const SolveReport &refused);
+    /// The obstacle of this name. Throws UserError if there is none.
+    Obstacle &
+    find_obstacle(const std::string &name);
+
+    /// Take over obstacles that are made already. Changes the term of obstacles, or adds it.
+    void
+    append_obstacle(const ObstacleParameters &obstacle, std::unique_ptr<Obstacles> added);
+
+    /// Obstacles of this one, apart from the others. Throws UserError as add_obstacle().
+    std::unique_ptr<Obstacles>
+    make_obstacle(const ObstacleParameters &obstacle, const ObstacleSurface &surface) const;
 
     /// Make loads if there are none. Throws UserError for an interpolation.
     void

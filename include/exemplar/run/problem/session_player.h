@@ -21,10 +21,15 @@ namespace Exemplar
   /// | grab | of the spring | any | a share of the stiffness and an offset from the anchor [m] for each, anchor [m], stiffness [N/m] |
   /// | move | of the spring | | 3 of the anchor [m] |
   /// | release | of the spring | | |
-  /// | hold | of the handle | ascending | displacements from rest, 3 a node [m] |
+  /// | hold | of the handle | ascending, of a shell with the slopes that it holds | displacements from rest, 3 a node [m] |
   /// | shift | of a handle that was held so | | displacement of all of it since then [m] |
   /// | let go | of the handle | | |
   /// | young, poisson, density, importance | | | 1, for all cells |
+  /// | ball | of the obstacle | | middle, radius [m], friction |
+  /// | block | of the obstacle | | two opposite corners [m], friction |
+  /// | carry | of any obstacle | | its displacement at the end of the step [m] |
+  /// | take away | of any obstacle | | |
+  /// | energy | a value of Examples/Energy | | |
   /// | weights | | | one a weight: they are held; none: they are unknown again |
   /// | gravity | | | 3 [m/s^2] |
   /// | damping | | | mass damping [1/s], stiffness damping [s] |

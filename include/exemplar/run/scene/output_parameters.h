@@ -30,6 +30,8 @@ namespace Exemplar
     std::string              directory;
     unsigned int             every              = 1;
     std::vector<std::string> formats            = { "vtu" }; ///< names in frame_formats()
+    bool                     usd_cells          = true;      ///< whether usda has the tetrahedra
+    bool                     usd_normals        = true; ///< whether usda has normals in each frame
     double                   checkpoint_minutes = 5.;
     bool                     keep_states        = false; ///< one for each frame
     FinalTetrahedra          final_pose         = FinalTetrahedra::linear;
