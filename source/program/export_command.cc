@@ -71,11 +71,11 @@ namespace Exemplar
         throw UserError("--gltf takes one run: call it for each.");
       const Live::GltfReport report = Live::export_gltf(
           { options.runs.front(), options.gltf, options.n_shapes, options.with_normals });
-      std::cout << fmt::format("{}: {} of {} vertices in the order of the surface and {} at seams, "
-                               "{} and {}, {:.1f} "
+      std::cout << fmt::format("{}: {} of {} vertices in the order of the surface and {} copies at "
+                               "seams, {} and {}, {:.1f} "
                                "MB; vertices are off by {:.3e} m at most, {:.3f} % of the diagonal",
                                options.gltf, counted(report.n_frames, "frame"), report.n_vertices,
-                               counted(report.n_copies, "copy", "copies"),
+                               report.n_copies,
                                counted(report.n_examples, "example"),
                                counted(report.n_shapes, "shape"), 1e-6 * report.n_bytes,
                                report.error, 100. * report.relative_error)
