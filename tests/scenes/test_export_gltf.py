@@ -76,7 +76,7 @@ class ExportGltf(SceneTest):
         run = self.call("export", output, "--gltf", file, *words)
         self.assertEqual(run.status, 0, run.stderr)
         self.last = run.stdout
-        said = re.fullmatch(re.escape(file) + r": (\d+) frames of (\d+) vertices in the order of the surface and \d+ copies at seams, (\d+) examples and (\d+) shapes, [\d.]+ MB; vertices are off by "
+        said = re.fullmatch(re.escape(file) + r": (\d+) frames? of (\d+) vertices in the order of the surface and \d+ copies at seams, (\d+) examples? and (\d+) shapes?, [\d.]+ MB; vertices are off by "
                             r"(\S+) m at most, (\S+) % of the diagonal\n", run.stdout.splitlines(keepends=True)[0])
         return [float(number) for number in said.groups()], run.stderr
 
