@@ -292,6 +292,7 @@ namespace Exemplar
     changed.check_obstacles();
     // apart from the others, so that nothing is changed if it is refused
     auto added = std::make_unique<Obstacles>(changed.obstacles, body.mesh.diameter(),
+                                             PieceSizes(body.mesh, body.fe_space),
                                              ObstacleSurfaces{ { obstacle.name, surface } });
     if (actions.contact_surface == nullptr)
       actions.contact_surface = std::make_unique<ContactSurface>(body.mesh, body.fe_space);
