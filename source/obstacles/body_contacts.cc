@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/base/number_text.h>
 #include <exemplar/obstacles/body_contacts.h>
 
 #include <algorithm>
@@ -8,18 +7,12 @@ namespace Exemplar
 {
   namespace
   {
-    /// The diagonal of the box around the largest piece [m].
+    /// The greatest number that a pair of pieces has, of which each has the lesser number of both.
     double
-    diameter_of_largest(const Mesh &mesh)
+    greatest_of_pairs(std::vector<double> of_pieces, const bool also_self)
     {
-      std::vector<std::vector<dealii::Point<3>>> nodes(mesh.n_pieces());
-      for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
-        for (const unsigned int node : mesh.corners(cell))
-          nodes[mesh.piece_of(cell)].push_back(mesh.get_nodes()[node]);
-      double largest = 0.;
-      for (const auto &of_piece : nodes)
-        largest = std::max(largest, box_diagonal(of_piece));
-      return largest;
+      std::sort(of_pieces.rbegin(), of_pieces.rend());
+      return of_pieces[also_self || of_pieces.size() == 1 ? 0 : 1];
     }
 
     bool
@@ -33,12 +26,15 @@ namespace Exemplar
                              const Mesh              &mesh,
                              const FESpace           &fe_space,
                              const NamedNodes        &named)
-      : diameter(diameter_of_largest(mesh)), friction(parameters.friction),
-        slip_speed(parameters.slip_speed == "auto" ? 1e-3 * diameter
-                                                   : parse_number(parameters.slip_speed)),
-        also_self(parameters.self), pieces(fe_space.numbering().pieces())
+      : friction(parameters.friction), also_self(parameters.self)
   {
-    width = contact_distance(parameters.distance, "Contact/Distance", diameter);
+    const PieceSizes sizes(mesh, fe_space);
+    const double     largest = *std::max_element(sizes.diameters.begin(), sizes.diameters.end());
+    pieces                   = sizes.pieces;
+    diameters                = sizes.diameters;
+    widths = contact_distances(parameters.distance, "Contact/Distance", largest, sizes).of_pieces;
+    width  = greatest_of_pairs(widths, also_self);
+    slip_speeds = contact_slip_speeds(parameters.slip_speed, sizes);
     for (const auto &[selection, key] : parameters.selections())
     {
       selections.resize(fe_space.n_nodes(), 0);
@@ -47,6 +43,37 @@ namespace Exemplar
         selections[node] |= std::uint64_t(1) << left_out.size();
       left_out.push_back(selection.text);
     }
+  }
+
+  PiecePair
+  BodyContacts::pieces_of(const ContactSurface &surface, const BodyPair &pair) const
+  {
+    if (pair.kind == BodyPairKind::edge_edge)
+      return std::minmax(pieces[surface.edges[pair.first].nodes[0]],
+                         pieces[surface.edges[pair.second].nodes[0]]);
+    return std::minmax(pieces[surface.nodes[pair.first].node],
+                       pieces[surface.triangles[pair.second].nodes[0]]);
+  }
+
+  double
+  BodyContacts::width_of(const ContactSurface &surface, const BodyPair &pair) const
+  {
+    if (const auto found = own_widths.find(pair.key()); found != own_widths.end())
+      return found->second;
+    if (widths.size() == 1 && joint_widths.empty())
+      return widths[0];
+    const PiecePair of    = pieces_of(surface, pair);
+    const auto      joint = joint_widths.find(key_of(of));
+    return joint == joint_widths.end() ? usual_width(of) : joint->second.width;
+  }
+
+  std::pair<BodyPair, double>
+  BodyContacts::origin_of_width(const ContactSurface &surface, const BodyPair &pair) const
+  {
+    if (own_widths.count(pair.key()) > 0)
+      return { pair, 0.5 };
+    const auto joint = joint_widths.find(key_of(pieces_of(surface, pair)));
+    return joint == joint_widths.end() ? std::pair(pair, 0.) : std::pair(joint->second.nearest, 1.);
   }
 
   bool

@@ -56,11 +56,12 @@ namespace Exemplar
     keys.add("Friction", friction, "Coefficient of Coulomb's friction of surfaces that meet.");
     keys.add(
         "Distance", distance,
-        "From where surfaces push each other [m]; auto: 5e-3 of the largest piece's diameter.");
+        "From where surfaces push each other [m]; auto: 5e-3 of the diameter of the smaller one of "
+        "the two pieces.");
     keys.add("Slip speed", slip_speed,
              "Speed [m/s] from which friction is that of a sliding contact: what sticks creeps "
              "below it; "
-             "auto: 1e-3 of the largest piece's diameter a second.");
+             "auto: 1e-3 of the diameter of the smaller one of the two pieces, per second.");
     keys.add(
         "Leave out", leave_out,
         "Parts of the surface that never touch each other, as an eye and its socket: selections "

@@ -126,11 +126,12 @@ namespace Exemplar
   void
   ObstaclesParameters::declare(KeyTable &keys)
   {
-    keys.add("Distance", distance,
-             "From where obstacles push [m]; auto: 5e-3 of the body's diameter.");
+    keys.add(
+        "Distance", distance,
+        "From where obstacles push [m]; auto: 5e-3 of the diameter of the piece that touches.");
     keys.add("Slip speed", slip_speed,
              "Speed [m/s] from which friction is that of a sliding contact: what sticks creeps "
-             "below it; auto: 1e-3 of the body's diameter a second.");
+             "below it; auto: 1e-3 of the diameter of the piece that touches, per second.");
     keys.add("Lag tolerance", lag_tolerance,
              "Friction follows normal forces until they change by less than this part of the "
              "greatest.",
@@ -165,17 +166,5 @@ namespace Exemplar
   {
     return std::any_of(named.begin(), named.end(),
                        [](const ObstacleParameters &obstacle) { return obstacle.friction > 0.; });
-  }
-
-  double
-  ObstaclesParameters::distance_of(const double diameter) const
-  {
-    return contact_distance(distance, "Obstacles/Distance", diameter);
-  }
-
-  double
-  ObstaclesParameters::slip_speed_of(const double diameter) const
-  {
-    return slip_speed == "auto" ? 1e-3 * diameter : parse_number(slip_speed);
   }
 } // namespace Exemplar

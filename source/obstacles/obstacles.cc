@@ -3,13 +3,17 @@
 #include <exemplar/obstacles/obstacles.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace Exemplar
 {
   Obstacles::Obstacles(const ObstaclesParameters &parameters,
                        const double               diameter,
+                       PieceSizes                 piece_sizes,
                        const ObstacleSurfaces    &surfaces)
-      : width(parameters.distance_of(diameter)), slip_speed(parameters.slip_speed_of(diameter)),
+      : sizes(std::move(piece_sizes)),
+        widths(contact_distances(parameters.distance, "Obstacles/Distance", diameter, sizes)),
+        width(widths.greatest()), slip_speeds(contact_slip_speeds(parameters.slip_speed, sizes)),
         lag_tolerance(parameters.lag_tolerance), free(parameters.free), diameter(diameter),
         start_widths(parameters.named.size())
   {

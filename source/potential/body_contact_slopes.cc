@@ -97,17 +97,22 @@ namespace Exemplar
     {
       if (!(touch.gap.distance > 0.))
         continue;
-      const ContactSlope slope = slope_of_barrier(touch, at_nodes(touch.gap, along));
-      add_at_nodes(touch.gap, slope.by_positions, sums.by_positions);
+      ContactGradient along_points;
+      for (unsigned int i = 0; i < 4; ++i)
+        along_points[i] = points.value(along, touch.gap.nodes[i]);
+      const ContactSlope slope = slope_of_barrier(touch, along_points);
+      for (unsigned int i = 0; i < 4; ++i)
+        points.add_to(sums.by_positions, touch.gap.nodes[i], slope.by_positions[i]);
       add_origins(touch, slope, by_shares);
-      if (contacts.own_widths.count(touch.pair.key()) == 0)
+      const auto [origin, part] = contacts.origin_of_width(surface, touch.pair);
+      if (part == 0.)
         continue;
-      const Gap then = search.touch_at(touch.pair, at_rest).gap;
-      if (std::abs(0.5 * then.distance - touch.gap.width) > rounding * touch.gap.width)
+      const Gap then = search.touch_at(origin, at_rest).gap;
+      if (std::abs(part * then.distance - touch.gap.width) > rounding * touch.gap.width)
         continue; // the body begins nearer than it is at rest, and has the width of that
       for (unsigned int i = 0; i < then.n_nodes; ++i)
         add_to(sums.by_rest_positions, then.nodes[i],
-               0.5 * slope.by_width * then.coefficients[i] * then.normal);
+               part * slope.by_width * then.coefficients[i] * then.normal);
     }
     surface.carry(by_shares, material, fe_space, sums.by_young, sums.by_rest_positions);
     return sums;

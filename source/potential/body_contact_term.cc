@@ -17,7 +17,7 @@ namespace Exemplar
                                    const ContactSurface &surface,
                                    const Material       &material,
                                    const TimeIntegrator *integrator)
-      : TouchingTerm(surface, material, integrator), contacts(contacts)
+      : TouchingTerm(surface, material, integrator, contacts.points), contacts(contacts)
   {
     reached.least_gap = contacts.width;
     follow_parameters();
@@ -63,9 +63,10 @@ namespace Exemplar
     NodePairs  result;
     const auto add = [&](const Gap &gap)
     {
-      for (unsigned int i = 0; i < 4; ++i)
+      const Gap whole = on_nodes(gap, points);
+      for (unsigned int i = 0; i < whole.n_nodes; ++i)
         for (unsigned int j = 0; j < i; ++j)
-          result.push_back(std::minmax({ gap.nodes[i], gap.nodes[j] }));
+          result.push_back(std::minmax({ whole.nodes[i], whole.nodes[j] }));
     };
     visit_pairs(positions, 1., [&](const BodyTouch &touch) { add(touch.gap); });
     for (const Rubbing &at : step.rubbing)
@@ -86,7 +87,7 @@ namespace Exemplar
                           near);
     for (const BodyTouch &touch : near)
       if (touch.gap.stiffness > 0.)
-        gaps.push_back(touch.gap);
+        gaps.push_back(on_nodes(touch.gap, points));
     append_gaps_of_friction(positions, gaps);
   }
 
@@ -104,11 +105,11 @@ namespace Exemplar
         = [](const BodyTouch &a, const BodyTouch &b) { return a.pair.key() < b.pair.key(); };
     for (const BodyTouch &touch : meeting)
       if (touch.gap.stiffness > 0.)
-        gaps.push_back(touch.gap);
+        gaps.push_back(on_nodes(touch.gap, points));
     for (const BodyTouch &touch : near)
       if (touch.gap.stiffness > 0.
           && !std::binary_search(meeting.begin(), meeting.end(), touch, is_before))
-        gaps.push_back(touch.gap);
+        gaps.push_back(on_nodes(touch.gap, points));
   }
 
   double
@@ -149,8 +150,12 @@ namespace Exemplar
     visit_pairs(at.positions, 1.,
                 [&](const BodyTouch &touch)
                 {
-                  if (const auto rubs = rubbing_of(touch, touch.pair.key(), contacts.friction))
-                    fresh.push_back(*rubs);
+                  auto rubs = rubbing_of(touch, touch.pair.key(), contacts.friction);
+                  if (!rubs)
+                    return;
+                  if (const auto motion = motion_of_pair(rubs->gap, at.positions))
+                    rubs->normal_before = rubs->gap.normal * motion->rotation;
+                  fresh.push_back(*rubs);
                 });
     const auto [greatest, change] = force_and_change_of(fresh, step.rubbing);
     if (change <= lag_tolerance * greatest)
@@ -166,8 +171,37 @@ namespace Exemplar
     SpaceVector3 u;
     for (unsigned int i = 0; i < 4; ++i)
       u += at.gap.coefficients[i]
-           * (at_node(positions, at.gap.nodes[i]) - at_node(step.slip_base, at.gap.nodes[i]));
+           * (points.value(positions, at.gap.nodes[i])
+              - points.value(step.slip_base, at.gap.nodes[i]));
     return u;
+  }
+
+  std::optional<PairMotion>
+  BodyContactTerm::motion_of_pair(const Gap &gap, const Vector &positions) const
+  {
+    PairPoints            before, now;
+    std::array<double, 4> coefficients;
+    for (unsigned int i = 0; i < 4; ++i)
+    {
+      before[i]       = points.value(step.slip_base, gap.nodes[i]);
+      now[i]          = points.value(positions, gap.nodes[i]);
+      coefficients[i] = gap.coefficients[i];
+    }
+    return PairMotion::from(before, now, coefficients);
+  }
+
+  TouchingTerm::Slip
+  BodyContactTerm::slip(const Rubbing &at, const Vector &positions) const
+  {
+    const std::optional<PairMotion> pair = motion_of_pair(at.gap, positions);
+    if (!pair)
+      return TouchingTerm::slip(at, positions);
+    // the direction that does not count turns with the pair
+    const SpaceVector3 u = pair->motion(), normal = pair->rotation * at.normal_before;
+    Slip               result{ u - (u * normal) * normal, normal, {} };
+    for (unsigned int i = 0; i < 4; ++i)
+      result.by_points.push_back(pair->by_point(i));
+    return result;
   }
 
   std::optional<double>
@@ -228,6 +262,6 @@ namespace Exemplar
   {
     return memory_of_touching() + kept.memory_consumption()
            + found.touches.capacity() * sizeof(BodyTouch) + found.positions.memory_consumption()
-           + contacts.own_widths.size() * 4 * sizeof(double);
+           + contacts.own_widths.size() * 4 * sizeof(double) + points.memory_consumption();
   }
 } // namespace Exemplar

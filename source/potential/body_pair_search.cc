@@ -43,7 +43,7 @@ namespace Exemplar
   {
     Places result(positions.size() / 3);
     for (const ContactSurface::Node &at : surface.nodes)
-      result[at.node] = at_node(positions, at.node);
+      result[at.node] = contacts.points.value(positions, at.node);
     return result;
   }
 
@@ -55,7 +55,7 @@ namespace Exemplar
     {
       if (!contacts.may_meet(surface, pair))
         return;
-      if (const double width = contacts.width_of(pair); width > 0.)
+      if (const double width = contacts.width_of(surface, pair); width > 0.)
         found.push_back({ pair, width, 0. });
     };
     if (!kept.near)
@@ -214,13 +214,13 @@ namespace Exemplar
                               surface.edges[candidate.pair.second].square);
     Gap &gap      = result.gap;
     gap.n_nodes   = 4;
-    gap.nodes     = x.nodes;
     gap.normal    = at.normal;
     gap.distance  = at.distance;
     gap.stiffness = result.part.m * result.full_stiffness;
     gap.width     = candidate.width;
     for (unsigned int i = 0; i < 4; ++i)
     {
+      gap.nodes[i]                = x.nodes[i];
       const bool         is_first = i < x.n_of_first;
       const unsigned int own      = is_first ? i : i - x.n_of_first;
       gap.coefficients[i]         = is_first ? at.nearest.a[own] : -at.nearest.b[own];
@@ -234,7 +234,7 @@ namespace Exemplar
   BodyPairSearch::touch_at(const BodyPair &pair, const Places &places) const
   {
     const BodyPairCorners x = corners(pair, places);
-    return touch({ pair, contacts.width_of(pair), 0. }, x, distance(pair, x.places));
+    return touch({ pair, contacts.width_of(surface, pair), 0. }, x, distance(pair, x.places));
   }
 
   void

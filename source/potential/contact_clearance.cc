@@ -1,29 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/obstacles/solid_angle.h>
 #include <exemplar/potential/contact_clearance.h>
 #include <exemplar/potential/nodal_vectors.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Exemplar
 {
   namespace
   {
     using Corners = std::array<SpaceVector3, 3>;
-
-    constexpr double pi = 3.14159265358979324;
-
-    /// The solid angle of a triangle, positive if its corners are clockwise as seen from the point
-    /// (van Oosterom and Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125).
-    double
-    solid_angle(const SpaceVector3 &point, const Corners &x)
-    {
-      const SpaceVector3 a = x[0] - point, b = x[1] - point, c = x[2] - point;
-      const double       A = a.norm(), B = b.norm(), C = c.norm();
-      return 2.
-             * std::atan2(a * dealii::cross_product_3d(b, c),
-                          A * B * C + (a * b) * C + (b * c) * A + (c * a) * B);
-    }
 
     /// The triangles of the body and of the obstacle in space, and the latter's edges.
     struct Geometry
@@ -128,7 +114,7 @@ namespace Exemplar
         angle += solid_angle(point, x);
       if (exchange != nullptr)
         angle = exchange->sum(angle);
-      return std::abs(angle) > 2. * pi;
+      return is_full_angle(angle);
     }
 
     /// A vector that one process knows, in all: that of the first process where `has` is true.
@@ -171,13 +157,15 @@ namespace Exemplar
             const double            reach,
             const Exchange         &exchange)
   {
-    Clearance           result{ reach, {}, {} };
+    Clearance result;
+    result.least = reach;
     const ContactSearch search(body, obstacles, standing, number);
     ContactPair         nearest_pair{};
     SpaceVector3        nearest_normal; // of the distance, in the obstacle's axes
     search.visit_near(positions, reach,
                       [&](const ContactPair &pair, const PairDistance &at)
                       {
+                        result.pushes = result.pushes || at.distance < search.width(pair);
                         if (at.distance < result.least)
                         {
                           result.least   = at.distance;
@@ -189,12 +177,7 @@ namespace Exemplar
     unsigned int node    = 0;
     if (is_near)
     {
-      if (nearest_pair.kind == PairKind::edge_edge)
-        node = body.edges[nearest_pair.of_body].nodes[0];
-      else if (nearest_pair.kind == PairKind::triangle_point)
-        node = body.triangles[nearest_pair.of_body].nodes[0];
-      else
-        node = body.nodes[nearest_pair.of_body].node;
+      node            = search.node_of(nearest_pair);
       result.place    = at_node(positions, node);
       result.outwards = normal_at(node, body, positions);
       if (!body.has_inside())
@@ -207,6 +190,13 @@ namespace Exemplar
     const double least  = min_of_all(exchange, result.least);
     const bool   is_own = is_near && result.least == least;
     result.least        = least;
+    result.pushes       = exchange.any(result.pushes);
+    if (obstacles.sizes.diameters.size() > 1)
+    {
+      SpaceVector3 piece;
+      piece[0]     = obstacles.sizes.pieces[node];
+      result.piece = static_cast<unsigned int>(agreed(exchange, is_own, piece)[0]);
+    }
 
     const ObstacleShape &shape = standing.shape();
     const Geometry       geometry

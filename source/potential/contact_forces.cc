@@ -217,34 +217,88 @@ namespace Exemplar
     return result;
   }
 
+  Gap
+  on_nodes(const Gap &gap, const ContactPoints &points)
+  {
+    if (points.empty())
+      return gap;
+    Gap result     = gap;
+    result.n_nodes = 0;
+    result.slip_by_nodes.clear();
+    for (unsigned int i = 0; i < gap.n_nodes; ++i)
+      points.visit(gap.nodes[i],
+                   [&](const unsigned int node, const double weight)
+                   {
+                     const auto end   = result.nodes.begin() + result.n_nodes;
+                     const auto place = std::find(result.nodes.begin(), end, node);
+                     const auto n     = static_cast<std::size_t>(place - result.nodes.begin());
+                     if (place == end)
+                     {
+                       result.nodes[n]        = node;
+                       result.coefficients[n] = 0.;
+                       ++result.n_nodes;
+                       if (!gap.slip_by_nodes.empty())
+                         result.slip_by_nodes.emplace_back();
+                     }
+                     result.coefficients[n] += weight * gap.coefficients[i];
+                     if (!gap.slip_by_nodes.empty())
+                       result.slip_by_nodes[n] += weight * gap.slip_by_nodes[i];
+                   });
+    return result;
+  }
+
+  namespace
+  {
+    void
+    add_block(const unsigned int          node,
+              const unsigned int          other,
+              const dealii::Tensor<2, 3> &block,
+              const SymmetricPattern     &pattern,
+              const FreeDofs             &free_dofs,
+              std::vector<double>        &values)
+    {
+      for (unsigned int a = 0; a < 3; ++a)
+        for (unsigned int b = 0; b < 3; ++b)
+        {
+          const int row    = free_dofs.free_index(3 * node + a);
+          const int column = free_dofs.free_index(3 * other + b);
+          if (row != FreeDofs::held && column != FreeDofs::held && row >= column)
+            values[pattern.position(row, column)] += block[a][b];
+        }
+    }
+  } // namespace
+
   void
   add_blocks(const Gap              &gap,
              const ContactHessian   &blocks,
+             const ContactPoints    &points,
              const SymmetricPattern &pattern,
              const FreeDofs         &free_dofs,
              std::vector<double>    &values)
   {
     for (unsigned int i = 0; i < gap.n_nodes; ++i)
       for (unsigned int j = 0; j < gap.n_nodes; ++j)
-        for (unsigned int a = 0; a < 3; ++a)
-          for (unsigned int b = 0; b < 3; ++b)
-          {
-            const int row    = free_dofs.free_index(3 * gap.nodes[i] + a);
-            const int column = free_dofs.free_index(3 * gap.nodes[j] + b);
-            if (row != FreeDofs::held && column != FreeDofs::held && row >= column)
-              values[pattern.position(row, column)] += blocks[i][j][a][b];
-          }
+        points.visit(gap.nodes[i],
+                     [&](const unsigned int node, const double weight)
+                     {
+                       points.visit(gap.nodes[j],
+                                    [&](const unsigned int other, const double other_weight) {
+                                      add_block(node, other, weight * other_weight * blocks[i][j],
+                                                pattern, free_dofs, values);
+                                    });
+                     });
   }
 
   void
   add_products(const Gap            &gap,
                const ContactHessian &blocks,
+               const ContactPoints  &points,
                const Vector         &displacement,
                Vector               &field)
   {
     for (unsigned int i = 0; i < gap.n_nodes; ++i)
       for (unsigned int j = 0; j < gap.n_nodes; ++j)
-        add_to(field, gap.nodes[i], blocks[i][j] * at_node(displacement, gap.nodes[j]));
+        points.add_to(field, gap.nodes[i], blocks[i][j] * points.value(displacement, gap.nodes[j]));
   }
 
   double

@@ -233,7 +233,17 @@ namespace Exemplar
   ContactSearch::width(const ContactPair &pair) const
   {
     const StartWidth *own = obstacles.own_width(number, pair.key());
-    return own == nullptr ? obstacles.width : own->width;
+    return own == nullptr ? obstacles.widths.at(node_of(pair)) : own->width;
+  }
+
+  unsigned int
+  ContactSearch::node_of(const ContactPair &pair) const
+  {
+    if (pair.kind == PairKind::edge_edge)
+      return surface.edges[pair.of_body].nodes[0];
+    if (pair.kind == PairKind::triangle_point)
+      return surface.triangles[pair.of_body].nodes[0];
+    return surface.nodes[pair.of_body].node;
   }
 
   double

@@ -208,7 +208,7 @@ namespace Exemplar
       now.move_to(at.time);
       const Clearance room = clearance(surface, obstacles, now, i, at.positions, obstacles.width,
                                        free_dofs->exchange());
-      if (room.is_crossed || room.least < obstacles.width)
+      if (room.is_crossed || room.pushes)
         throw SolverFailure("Obstacles/" + obstacle.name()
                             + " appears at t = " + shortest_text(at.time)
                             + " s where the body is, near " + place_text(room.place)

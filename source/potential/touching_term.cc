@@ -5,6 +5,7 @@
 #include <exemplar/potential/touching_term.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Exemplar
 {
@@ -27,11 +28,11 @@ namespace Exemplar
 
   // Friction
 
-  SpaceVector3
+  TouchingTerm::Slip
   TouchingTerm::slip(const Rubbing &at, const Vector &positions) const
   {
     const SpaceVector3 u = motion_along(at, positions);
-    return u - (u * at.gap.normal) * at.gap.normal;
+    return { u - (u * at.gap.normal) * at.gap.normal, at.gap.normal, {} };
   }
 
   double
@@ -39,7 +40,7 @@ namespace Exemplar
   {
     // of a velocity that lasts for the step
     const RubbingStep &step = rubbing_step();
-    return step.rate * step.size * slip_energy(at).heat(slip(at, positions).norm());
+    return step.rate * step.size * slip_energy(at).heat(slip(at, positions).vector.norm());
   }
 
   double
@@ -67,7 +68,7 @@ namespace Exemplar
     if (coefficient == 0. || !(gap.distance > 0.) || gap.stiffness == 0.)
       return {};
     const double force = -slope_of(gap);
-    return Rubbing{ touch.obstacle, key, gap, force, coefficient, {}, {}, {} };
+    return Rubbing{ touch.obstacle, key, gap, force, coefficient, {}, {}, {}, {} };
   }
 
   void
@@ -86,13 +87,15 @@ namespace Exemplar
   TouchingTerm::gap_of(const Rubbing &at, const Vector &positions) const
   {
     const SlipEnergy energy = slip_energy(at);
+    const Slip       now    = slip(at, positions);
     Gap              gap    = at.gap;
     gap.stiffness           = 0.;
     gap.distance            = gap.width;
     gap.friction            = energy.greatest;
     gap.slip_width          = energy.e;
-    gap.friction_normal     = at.gap.normal;
-    gap.slip                = slip(at, positions);
+    gap.friction_normal     = now.normal;
+    gap.slip                = now.vector;
+    gap.slip_by_nodes       = now.by_points;
     return gap;
   }
 
@@ -107,7 +110,7 @@ namespace Exemplar
                   [&](const Touch &touch)
                   {
                     if (touch.gap.stiffness > 0.)
-                      gaps.push_back(touch.gap);
+                      gaps.push_back(on_nodes(touch.gap, points));
                   });
     append_gaps_of_friction(positions, gaps);
   }
@@ -116,16 +119,17 @@ namespace Exemplar
   TouchingTerm::append_gaps_of_friction(const Vector &positions, std::vector<Gap> &gaps) const
   {
     for (const Rubbing &at : rubbing_step().rubbing)
-      gaps.push_back(gap_of(at, positions));
+      gaps.push_back(on_nodes(gap_of(at, positions), points));
   }
 
   ContactGradient
-  TouchingTerm::gradient_of_friction(const Rubbing &at, const SpaceVector3 &slip) const
+  TouchingTerm::gradient_of_friction(const Rubbing &at, const Slip &slip) const
   {
-    const SpaceVector3 force = slip_energy(at).force_by_slip(slip.norm()) * slip;
+    const SpaceVector3 force = slip_energy(at).force_by_slip(slip.vector.norm()) * slip.vector;
     ContactGradient    gradient{};
     for (unsigned int i = 0; i < at.gap.n_nodes; ++i)
-      gradient[i] = at.gap.coefficients[i] * force;
+      gradient[i]
+          = slip.by_points.empty() ? at.gap.coefficients[i] * force : force * slip.by_points[i];
     return gradient;
   }
 
@@ -150,7 +154,7 @@ namespace Exemplar
                     [&](unsigned int, const Gap &gap, const ContactGradient &gradient)
                     {
                       for (unsigned int i = 0; i < gap.n_nodes; ++i)
-                        add_to(forces, gap.nodes[i], -gradient[i]);
+                        points.add_to(forces, gap.nodes[i], -gradient[i]);
                     });
     return forces;
   }
@@ -162,8 +166,9 @@ namespace Exemplar
     {
       for (unsigned int i = 0; i < gap.n_nodes; ++i)
       {
-        add_to(sums->gradient, gap.nodes[i], gradient[i]);
-        sums->force_scale[gap.nodes[i]] += gradient[i].norm();
+        points.add_to(sums->gradient, gap.nodes[i], gradient[i]);
+        points.visit(gap.nodes[i], [&](const unsigned int node, const double weight)
+                     { sums->force_scale[node] += std::abs(weight) * gradient[i].norm(); });
       }
     };
     // what is light, and hard to press, has little energy beside that of these forces along the rounding of their distances
@@ -180,8 +185,8 @@ namespace Exemplar
                   });
     for (const Rubbing &rub : rubbing_step().rubbing)
     {
-      const SpaceVector3 u = slip(rub, at.positions);
-      sums->energy += slip_energy(rub).value(u.norm());
+      const Slip u = slip(rub, at.positions);
+      sums->energy += slip_energy(rub).value(u.vector.norm());
       add_gradient(rub.gap, gradient_of_friction(rub, u));
     }
   }
@@ -200,11 +205,14 @@ namespace Exemplar
                   });
     for (const Rubbing &at : rubbing_step().rubbing)
     {
-      const auto     curvature = slip_energy(at).curvature(slip(at, positions), at.gap.normal);
+      const Slip     u         = slip(at, positions);
+      const auto     curvature = slip_energy(at).curvature(u.vector, u.normal);
       ContactHessian blocks;
       for (unsigned int i = 0; i < at.gap.n_nodes; ++i)
         for (unsigned int j = 0; j < at.gap.n_nodes; ++j)
-          blocks[i][j] = at.gap.coefficients[i] * at.gap.coefficients[j] * curvature;
+          blocks[i][j] = u.by_points.empty()
+                             ? at.gap.coefficients[i] * at.gap.coefficients[j] * curvature
+                             : dealii::transpose(u.by_points[i]) * curvature * u.by_points[j];
       visit(at.gap, blocks);
     }
   }
@@ -217,7 +225,7 @@ namespace Exemplar
   {
     visit_blocks(at.positions, kind,
                  [&](const Gap &gap, const ContactHessian &blocks)
-                 { add_blocks(gap, blocks, *pattern, *free_dofs, values); });
+                 { add_blocks(gap, blocks, points, *pattern, *free_dofs, values); });
   }
 
   void
@@ -228,7 +236,7 @@ namespace Exemplar
   {
     visit_blocks(at.positions, kind,
                  [&](const Gap &gap, const ContactHessian &blocks)
-                 { add_products(gap, blocks, displacement, sums->gradient); });
+                 { add_products(gap, blocks, points, displacement, sums->gradient); });
   }
 
   double

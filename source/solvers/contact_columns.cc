@@ -74,9 +74,11 @@ namespace Exemplar
     {
       const Gap &gap = gaps.gap_of(r);
       for (unsigned int i = 0; i < gap.n_nodes; ++i)
-        rows[r].push_back(
-            { number_of(gap.nodes[i]), 3 * gap.nodes[i],
-              gap.coefficients[i] * metric.rotate_back(gap.nodes[i], gaps.row(r).direction) });
+      {
+        const auto [factor, vector] = gap.derivative(i, gaps.row(r).direction);
+        rows[r].push_back({ number_of(gap.nodes[i]), 3 * gap.nodes[i],
+                            factor * metric.rotate_back(gap.nodes[i], vector) });
+      }
     }
     return rows;
   }

@@ -82,9 +82,11 @@ namespace Exemplar
     {
       const Gap &gap = gap_of(r);
       for (unsigned int i = 0; i < gap.n_nodes; ++i)
+      {
+        const auto [factor, vector] = gap.derivative(i, rows[r].direction);
         for (unsigned int c = 0; c < 3; ++c)
-          result[r]
-              += gap.coefficients[i] * rows[r].direction[c] * displacement[3 * gap.nodes[i] + c];
+          result[r] += factor * vector[c] * displacement[3 * gap.nodes[i] + c];
+      }
     }
     return result;
   }
@@ -107,8 +109,11 @@ namespace Exemplar
     {
       const Gap &gap = gap_of(r);
       for (unsigned int i = 0; i < gap.n_nodes; ++i)
+      {
+        const auto [factor, vector] = gap.derivative(i, rows[r].direction);
         for (unsigned int c = 0; c < 3; ++c)
-          field[3 * gap.nodes[i] + c] += by_row[r] * gap.coefficients[i] * rows[r].direction[c];
+          field[3 * gap.nodes[i] + c] += by_row[r] * factor * vector[c];
+      }
     }
   }
 

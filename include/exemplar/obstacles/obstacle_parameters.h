@@ -79,15 +79,6 @@ namespace Exemplar
 
     bool
     has_friction() const;
-
-    /// d_hat [m] of a body of this diameter [m]. Throws UserError for one given by hand that is above a tenth of it or
-    /// below a millionth.
-    double
-    distance_of(double diameter) const;
-
-    /// Slip speed [m/s] of a body of this diameter [m].
-    double
-    slip_speed_of(double diameter) const;
   };
 } // namespace Exemplar
 

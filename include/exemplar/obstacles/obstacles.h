@@ -3,6 +3,7 @@
 #define exemplar_obstacles_h
 
 #include <exemplar/obstacles/obstacle.h>
+#include <exemplar/obstacles/piece_sizes.h>
 
 #include <array>
 #include <cstdint>
@@ -25,9 +26,10 @@ namespace Exemplar
   /// The obstacles of a scene.
   struct Obstacles
   {
-    /// `diameter` is the body's [m]. Throws UserError as Obstacle and ObstaclesParameters::distance_of().
+    /// `diameter` is the whole body's [m]. Throws UserError as Obstacle and contact_distances().
     Obstacles(const ObstaclesParameters &parameters,
               double                     diameter,
+              PieceSizes                 sizes,
               const ObstacleSurfaces    &surfaces);
 
     /// Whether one of them stands elsewhere at these times [s].
@@ -46,8 +48,10 @@ namespace Exemplar
     }
 
     std::vector<Obstacle> all;
-    double                width;         ///< d_hat: from where they push [m]
-    double                slip_speed;    ///< [m/s]
+    PieceSizes            sizes;
+    PieceLengths          widths;        ///< d_hat: from where they push a piece [m]
+    double                width;         ///< the greatest one of these [m]
+    PieceLengths          slip_speeds;   ///< [m/s]
     double                lag_tolerance; ///< part of the greatest normal force
     FreeBodies            free;          ///< what holds a static body
     double                diameter;      ///< of the body [m]

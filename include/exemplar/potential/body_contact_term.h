@@ -4,8 +4,11 @@
 
 #include <exemplar/potential/body_pair_search.h>
 #include <exemplar/potential/contact_slopes.h>
+#include <exemplar/potential/pair_slip.h>
 #include <exemplar/potential/touching_term.h>
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -149,10 +152,18 @@ namespace Exemplar
     SpaceVector3
     motion_along(const Rubbing &at, const Vector &positions) const override;
 
+    Slip
+    slip(const Rubbing &at, const Vector &positions) const override;
+
+    /// How what rubs has moved in the step, seen from axes that turn with it.
+    std::optional<PairMotion>
+    motion_of_pair(const Gap &gap, const Vector &positions) const;
+
     double
-    slip_speed() const override
+    slip_speed(const Rubbing &at) const override
     {
-      return contacts.slip_speed;
+      const auto &nodes = at.gap.nodes; // of both sides
+      return std::min(contacts.slip_speeds.at(nodes[0]), contacts.slip_speeds.at(nodes[3]));
     }
 
     BodyPairSearch

@@ -4,6 +4,7 @@
 
 #include <exemplar/algebra/free_dofs.h>
 #include <exemplar/algebra/spd_operator.h>
+#include <exemplar/obstacles/contact_points.h>
 #include <exemplar/potential/contact_search.h>
 #include <exemplar/potential/evaluation.h>
 
@@ -34,10 +35,15 @@ namespace Exemplar
   dealii::Tensor<2, 2>
   inverse_of_free(const Nearest &at);
 
-  /// Add the blocks of a gap's nodes to the values of a matrix.
+  /// The gap with the nodes that its points are made of.
+  Gap
+  on_nodes(const Gap &gap, const ContactPoints &points);
+
+  /// Add the blocks of a gap's points to the values of a matrix.
   void
   add_blocks(const Gap              &gap,
              const ContactHessian   &blocks,
+             const ContactPoints    &points,
              const SymmetricPattern &pattern,
              const FreeDofs         &free_dofs,
              std::vector<double>    &values);
@@ -46,6 +52,7 @@ namespace Exemplar
   void
   add_products(const Gap            &gap,
                const ContactHessian &blocks,
+               const ContactPoints  &points,
                const Vector         &displacement,
                Vector               &field);
 
@@ -69,6 +76,8 @@ namespace Exemplar
     /// Where that point is between vertices that move by themselves.
     std::array<unsigned int, 3> vertices;
     std::array<double, 3>       shares;
+    SpaceVector3
+        normal_before; ///< of two parts of a body: the normal in the axes of the step's start
   };
 
   /// The greatest normal force of what rubs, and the greatest difference to earlier ones; both lists ascend with obstacles and keys.

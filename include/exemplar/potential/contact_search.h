@@ -140,6 +140,10 @@ namespace Exemplar
     double
     width(const ContactPair &pair) const;
 
+    /// One of the body's nodes of a pair.
+    unsigned int
+    node_of(const ContactPair &pair) const;
+
   private:
     /// With the obstacle's axes there.
     Places

@@ -252,9 +252,9 @@ namespace Exemplar
     motion_along(const Rubbing &at, const Vector &positions) const override;
 
     double
-    slip_speed() const override
+    slip_speed(const Rubbing &at) const override
     {
-      return obstacles.slip_speed;
+      return obstacles.slip_speeds.at(at.gap.nodes[0]);
     }
 
     /// The motion of a contact that rubs.

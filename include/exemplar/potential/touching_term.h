@@ -81,8 +81,9 @@ namespace Exemplar
     /// `integrator` is null unless the scene is dynamic. All must outlive the term.
     TouchingTerm(const ContactSurface &surface,
                  const Material       &material,
-                 const TimeIntegrator *integrator)
-        : surface(surface), material(material), integrator(integrator)
+                 const TimeIntegrator *integrator,
+                 const ContactPoints  &points = ContactPoints::none())
+        : surface(surface), material(material), integrator(integrator), points(points)
     {
     }
 
@@ -104,16 +105,24 @@ namespace Exemplar
 
     /// From which friction is that of a sliding contact [m/s].
     virtual double
-    slip_speed() const = 0;
+    slip_speed(const Rubbing &at) const = 0;
 
-    /// The part of the motion across the normal.
-    SpaceVector3
+    /// How a contact slips in the step.
+    struct Slip
+    {
+      SpaceVector3 vector; ///< the motion across the normal [m]
+      SpaceVector3 normal;
+      /// Derivatives of the motion by the points of the gap; empty: coefficients times the unit matrix.
+      std::vector<dealii::Tensor<2, 3>> by_points;
+    };
+
+    virtual Slip
     slip(const Rubbing &at, const Vector &positions) const;
 
     SlipEnergy
     slip_energy(const Rubbing &at) const
     {
-      return { at.coefficient * at.force, slip_speed() / rubbing_step().rate };
+      return { at.coefficient * at.force, slip_speed(at) / rubbing_step().rate };
     }
 
     /// What a step with this end makes of it [J].
@@ -142,7 +151,7 @@ namespace Exemplar
 
     /// What rubs slips from where the step counts it.
     ContactGradient
-    gradient_of_friction(const Rubbing &at, const SpaceVector3 &slip) const;
+    gradient_of_friction(const Rubbing &at, const Slip &slip) const;
 
     /// Call visit for all barriers that are not closed, whose infinite energy has no force, and for all friction.
     void
@@ -168,6 +177,7 @@ namespace Exemplar
     ContactSurface          surface; ///< with the shares of the material
     const Material         &material;
     const TimeIntegrator   *integrator;
+    const ContactPoints    &points;              ///< of gaps, in place of nodes
     const SymmetricPattern *pattern   = nullptr; ///< since attach()
     const FreeDofs         *free_dofs = nullptr; ///< since attach()
 

@@ -20,7 +20,7 @@ namespace Exemplar
   public:
     explicit GapEnergies(std::vector<Gap> gaps);
 
-    /// A row: y = direction . sum c_i u_i.
+    /// A row: y = direction . sum C_i u_i, Gap::derivative().
     struct Row
     {
       unsigned int         gap; ///< its index

@@ -53,9 +53,13 @@ namespace Exemplar
   knows_starts_in_contact(const Problem &problem)
   {
     const bool has_pose_function = !problem.parameters.initial.pose_function.empty();
-    if (problem.actions.body_contacts != nullptr && has_pose_function
-        && !problem.actions.body_contacts->own_widths.empty())
-      return false;
+    if (const BodyContacts *const contacts = problem.actions.body_contacts.get())
+    {
+      const bool has_widths = !contacts->own_widths.empty() || !contacts->joint_widths.empty();
+      if (contacts->pieces_were_moved || !contacts->points.empty()
+          || (has_pose_function && has_widths))
+        return false;
+    }
     if (problem.actions.obstacles == nullptr)
       return true;
     const Obstacles &obstacles = *problem.actions.obstacles;

@@ -33,7 +33,7 @@ namespace Exemplar
                     const Vector         &positions,
                     const double          time)
           : obstacles(obstacles), number(number), obstacle(obstacles.all[number]), surface(surface),
-            body(body), positions(positions), time(time), diameter(body.mesh.diameter())
+            body(body), positions(positions), time(time)
       {
       }
 
@@ -41,10 +41,11 @@ namespace Exemplar
       std::string
       set_back()
       {
-        Clearance first = look();
+        Clearance    first    = look();
+        const double diameter = obstacles.sizes.diameters[first.piece];
         if (first.least > outside_touch * diameter && !first.is_crossed)
           return "";
-        const double least = part_of_width * obstacles.width;
+        const double least = part_of_width * width_of(first);
         // the middle of a shell may lie on the obstacle, as it is drawn
         const double most     = inside_touch * diameter + surface.greatest_offset() + least;
         const bool   is_solid = obstacle.shape().half_sizes || obstacle.shape().is_surface();
@@ -52,7 +53,7 @@ namespace Exemplar
         if (!is_solid && (first.is_crossed || by > most))
           refuse(first);
         if (is_solid)
-          by = least_set_back(first, most);
+          by = least_set_back(first, least, most);
         obstacle.set_back(by, first.outwards);
         return fmt::format("Obstacles/{} touches the body near {} m: it is set back by {} m",
                            obstacle.name(), place_text(first.place), short_text(by));
@@ -74,15 +75,15 @@ namespace Exemplar
         standing.move_to(time);
         auto                                       &widths = obstacles.start_widths[number];
         std::vector<std::pair<PairKey, StartWidth>> found;
-        ContactSearch(surface, obstacles, standing, number)
-            .visit_near(positions, obstacles.width,
-                        [&](const ContactPair &pair, const PairDistance &at)
-                        {
-                          if (at.distance < obstacles.width)
-                            found.emplace_back(pair.key(),
-                                               StartWidth{ at.distance, at.nearest.a,
-                                                           standing.pose.rotation * at.normal });
-                        });
+        const ContactSearch                         search(surface, obstacles, standing, number);
+        search.visit_near(positions, obstacles.width,
+                          [&](const ContactPair &pair, const PairDistance &at)
+                          {
+                            if (at.distance < search.width(pair))
+                              found.emplace_back(pair.key(),
+                                                 StartWidth{ at.distance, at.nearest.a,
+                                                             standing.pose.rotation * at.normal });
+                          });
         // of the triangles of a flat part the nearest counts
         std::sort(found.begin(), found.end(),
                   [](const auto &one, const auto &other) {
@@ -93,21 +94,29 @@ namespace Exemplar
       }
 
     private:
+      /// From where the obstacle pushes the nearest piece [m].
+      double
+      width_of(const Clearance &at) const
+      {
+        const std::vector<double> &widths = obstacles.widths.of_pieces;
+        return widths[widths.size() == 1 ? 0 : at.piece];
+      }
+
       Clearance
       look() const
       {
         StandingObstacle standing(obstacle);
         standing.move_to(time);
         return clearance(surface, obstacles, standing, number, positions,
-                         std::max(obstacles.width, inside_touch * diameter), body.exchange());
+                         std::max(obstacles.width, inside_touch * body.mesh.diameter()),
+                         body.exchange());
       }
 
       /// The least by which a box or surface must go, found by halving. Throws UserError if that is more than `most`.
       double
-      least_set_back(Clearance &first, const double most)
+      least_set_back(Clearance &first, const double least, const double most)
       {
         constexpr unsigned int max_halvings = 40;
-        const double           least        = part_of_width * obstacles.width;
         const auto             is_enough    = [&](const double by)
         {
           obstacle.set_back(by, first.outwards);
@@ -183,7 +192,6 @@ namespace Exemplar
       const Body           &body;
       const Vector         &positions;
       const double          time;
-      const double          diameter;
     };
   } // namespace
 

@@ -97,15 +97,15 @@ namespace Exemplar
     slopes_held.assign(body.fe_space.numbering().n_nodes() - body.fe_space.numbering().n_places(),
                        true);
     follow_slopes();
+    if (actions.body_contacts != nullptr)
+      suit_body_contacts(*actions.body_contacts, *actions.contact_surface, body.fe_space,
+                         constraints.free_dofs, state.positions, actions.notes);
     if (actions.obstacles != nullptr)
     {
       check_obstacle_motions(*actions.obstacles, body, time_axis);
       suit_obstacles(*actions.obstacles, *actions.contact_surface, body, state.positions, 0.,
                      actions.notes);
     }
-    if (actions.body_contacts != nullptr)
-      suit_body_contacts(*actions.body_contacts, *actions.contact_surface,
-                         body.fe_space.rest_positions(), state.positions, actions.notes);
     review_poses_in_contact();
     state.history = elastic->initial_history();
     start(state);

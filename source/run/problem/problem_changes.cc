@@ -325,6 +325,7 @@ namespace Exemplar
     changed.obstacles.named = { obstacle };
     changed.check_obstacles();
     return std::make_unique<Obstacles>(changed.obstacles, body.mesh.diameter(),
+                                       PieceSizes(body.mesh, body.fe_space),
                                        ObstacleSurfaces{ { obstacle.name, surface } });
   }
 

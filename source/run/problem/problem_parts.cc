@@ -194,8 +194,10 @@ namespace Exemplar
                                           : nullptr),
         obstacles(parameters.obstacles.empty()
                       ? nullptr
-                      : std::make_unique<Obstacles>(
-                          parameters.obstacles, body.mesh.diameter(), inputs.fields.obstacles)),
+                      : std::make_unique<Obstacles>(parameters.obstacles,
+                                                    body.mesh.diameter(),
+                                                    PieceSizes(body.mesh, body.fe_space),
+                                                    inputs.fields.obstacles)),
         body_contacts(make_body_contacts(parameters, body, inputs)),
         contact_surface(obstacles == nullptr && body_contacts == nullptr
                             ? nullptr

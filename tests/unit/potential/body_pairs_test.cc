@@ -35,7 +35,8 @@ namespace Exemplar::Testing
           : mesh(two_tetrahedra(), "bar.msh"), fe_space(mesh), surface(mesh, fe_space),
             contacts(parameters(), mesh, fe_space)
       {
-        contacts.width = width;
+        contacts.width  = width;
+        contacts.widths = { width };
         surface.nodes.clear();
         for (const unsigned int node : { 0U, 1U, 2U, 3U, 4U })
           surface.nodes.push_back({ node, 0.5, 0., 300. });

@@ -2,6 +2,7 @@
 #ifndef exemplar_body_contact_start_h
 #define exemplar_body_contact_start_h
 
+#include <exemplar/algebra/free_dofs.h>
 #include <exemplar/algebra/vector.h>
 #include <exemplar/obstacles/body_contacts.h>
 
@@ -10,14 +11,16 @@
 
 namespace Exemplar
 {
-  /// Let pairs that are near each other at rest or at these positions, where the scene begins, push from half their distance on, and leave
-  /// out what touches or crosses at rest; a note says how many and where. Throws UserError where surfaces cross or touch at the beginning
-  /// that do not at rest.
+  /// Let contact suit a body that begins at these positions, which may change: suit_pieces(), and pairs of one piece that are near each other at rest or
+  /// where the scene begins push from half of their distance on. What touches or crosses in one piece at rest is left out. Notes tell
+  /// how many and where. Throws UserError where a piece crosses or touches itself at the beginning, but not at rest, and
+  /// as suit_pieces().
   void
   suit_body_contacts(BodyContacts             &contacts,
                      const ContactSurface     &surface,
-                     const Vector             &rest_positions,
-                     const Vector             &positions,
+                     const FESpace            &fe_space,
+                     const FreeDofs           &free_dofs,
+                     Vector                   &positions,
                      std::vector<std::string> &notes);
 
   /// A sentence about a pose, which messages call `name`, where surfaces cross that do not at rest; empty: none do.

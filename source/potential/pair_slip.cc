@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/obstacles/obstacle.h>
+#include <exemplar/potential/pair_slip.h>
+
+#include <cmath>
+
+namespace Exemplar
+{
+  namespace
+  {
+    /// The matrix of v -> a x v.
+    dealii::Tensor<2, 3>
+    cross_matrix(const SpaceVector3 &a)
+    {
+      dealii::Tensor<2, 3> result;
+      result[0][1] = -a[2];
+      result[0][2] = a[1];
+      result[1][0] = a[2];
+      result[1][2] = -a[0];
+      result[2][0] = -a[1];
+      result[2][1] = a[0];
+      return result;
+    }
+
+    PairPoints
+    centred(PairPoints points)
+    {
+      const SpaceVector3 centre = 0.25 * (points[0] + points[1] + points[2] + points[3]);
+      for (SpaceVector3 &point : points)
+        point -= centre;
+      return points;
+    }
+
+    SpaceVector3
+    weighted_sum(const PairPoints &points, const std::array<double, 4> &coefficients)
+    {
+      SpaceVector3 sum;
+      for (unsigned int i = 0; i < 4; ++i)
+        sum += coefficients[i] * points[i];
+      return sum;
+    }
+  } // namespace
+
+  std::optional<PairMotion>
+  PairMotion::from(const PairPoints            &before,
+                   const PairPoints            &now,
+                   const std::array<double, 4> &coefficients)
+  {
+    constexpr unsigned int max_turns        = 50;
+    constexpr double       negligible       = 1e-15; ///< [rad]
+    constexpr double       least_of_moments = 1e-12; ///< of a matrix that can be inverted
+    const PairPoints       there = centred(now), here = centred(before);
+    PairMotion             result;
+    result.coefficients     = coefficients;
+    result.of_points        = weighted_sum(there, coefficients);
+    result.of_points_before = weighted_sum(here, coefficients);
+    for (unsigned int c = 0; c < 3; ++c)
+      result.rotation[c][c] = 1.;
+    for (unsigned int turn = 0; turn < max_turns; ++turn)
+    {
+      dealii::Tensor<2, 3> products; // sum of arm x point, which is symmetric in the end
+      SpaceVector3         moment;
+      for (unsigned int i = 0; i < 4; ++i)
+      {
+        result.arms[i] = result.rotation * here[i];
+        products += dealii::outer_product(result.arms[i], there[i]);
+        moment += dealii::cross_product_3d(result.arms[i], there[i]);
+      }
+      const double         trace  = dealii::trace(products);
+      dealii::Tensor<2, 3> matrix = -0.5 * (products + dealii::transpose(products));
+      for (unsigned int c = 0; c < 3; ++c)
+        matrix[c][c] += trace;
+      if (!(dealii::determinant(matrix) > least_of_moments * std::pow(std::abs(trace), 3)))
+        return {};
+      result.turn_by_moment       = dealii::invert(matrix);
+      const SpaceVector3 rotation = result.turn_by_moment * moment;
+      if (rotation.norm() < negligible)
+        return result;
+      result.rotation = rotation_by(rotation) * result.rotation;
+    }
+    return result;
+  }
+
+  dealii::Tensor<2, 3>
+  PairMotion::by_point(const unsigned int i) const
+  {
+    // the axes turn by turn_by_moment * (arm_i x dx_i), and r stays behind them
+    dealii::Tensor<2, 3> result = cross_matrix(of_points) * turn_by_moment * cross_matrix(arms[i]);
+    for (unsigned int c = 0; c < 3; ++c)
+      result[c][c] += coefficients[i];
+    return result;
+  }
+} // namespace Exemplar
