@@ -104,7 +104,8 @@ namespace Exemplar
               const FESpace                       &fe_space)
     {
       const std::vector<dealii::Point<3>> nodes = fe_space.complete(places, "Examples, " + name);
-      ExamplePose                         pose{ name, Vector(fe_space.n_dofs()) };
+      ExamplePose                         pose{ name, Vector(fe_space.n_dofs()),
+                        fe_space.numbering().has_slopes() && places.size() < nodes.size() };
       for (unsigned int node = 0; node < nodes.size(); ++node)
         for (unsigned int c = 0; c < 3; ++c)
           pose.positions[3 * node + c] = nodes[node][c];
@@ -145,11 +146,12 @@ namespace Exemplar
       std::vector<std::string> warnings;
       for (std::size_t i = parameters.has_rest_pose() ? 1 : 0; i < poses.size(); ++i)
       {
-        const auto &[name, positions] = poses[i];
-        const std::string of_function = i < first_function
-                                            ? ""
-                                            : describe_displacements(functions[i - first_function],
-                                                                     mesh, fe_space, positions);
+        const std::string &name        = poses[i].name;
+        const Vector      &positions   = poses[i].positions;
+        const std::string  of_function = i < first_function
+                                             ? ""
+                                             : describe_displacements(functions[i - first_function],
+                                                                      mesh, fe_space, positions);
         if (!of_function.empty())
           warnings.push_back("Examples/Pose functions" + of_function);
         else if (const std::string problem = describe_pose(mesh, fe_space, positions);
@@ -201,7 +203,10 @@ namespace Exemplar
         warnings(review(parameters, mesh, fe_space, poses))
   {
     for (const ExamplePose &pose : poses)
+    {
       positions.push_back(pose.positions);
+      finds_slopes_of.push_back(pose.finds_slopes);
+    }
   }
 
   ExamplePoses::ExamplePoses(const ExampleParameters                &parameters,
@@ -244,8 +249,8 @@ namespace Exemplar
   void
   ExamplePoses::set_material(const Material &cell_material, const Patches &patches)
   {
-    if (rule.acts_on != ActsOn::all
-        || cell_material.has_elasticity_of_examples()) // strains depend on the material
+    if (rule.acts_on != ActsOn::all || cell_material.has_elasticity_of_examples()
+        || fe_space.numbering().has_slopes()) // strains depend on the material
       set_parameters(importance(), cell_material, patches);
     else if (size() > 0)
       compute_energies(cell_material, patches);
@@ -254,7 +259,9 @@ namespace Exemplar
   void
   ExamplePoses::set_pose(const unsigned int i, const std::vector<dealii::Point<3>> &places)
   {
-    positions[i] = make_pose(name(i), places, fe_space).positions;
+    const ExamplePose pose = make_pose(name(i), places, fe_space);
+    positions[i]           = pose.positions;
+    finds_slopes_of[i]     = pose.finds_slopes;
   }
 
   ExamplePoses::StrainOfPose
@@ -276,6 +283,10 @@ namespace Exemplar
   {
     for (unsigned int i = first_strained(); i < size(); ++i)
     {
+      if (finds_slopes_of[i])
+        positions[i] = fe_space.with_tips_of_least_bending(
+            pose(i), [&](const unsigned int cell)
+            { return shell_elasticity(material, cell, fe_space.shell().kind()); });
       const std::vector<ShellStrain> all = fe_space.shell_strains(pose(i));
       for (unsigned int cell = 0; cell < fe_space.n_cells(); ++cell)
         for (unsigned int k = 0; k < n_shell_strains; ++k)

@@ -64,6 +64,13 @@ namespace Exemplar
       return vectors;
     }
 
+    void
+    place_at(const unsigned int node, const Vector3<double> &place, Vector &positions)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        positions[3 * node + c] = place[c];
+    }
+
     std::vector<double>
     thicknesses_of(const std::vector<ShellSection> &sections)
     {
@@ -95,38 +102,18 @@ namespace Exemplar
                         "line or a point has no strains. Give places that keep its area.",
                         key, elements.size(), mesh.get_triangles().size(), list_numbers(elements)));
     }
-
-    std::unique_ptr<const ShellMesh>
-    make_shell_mesh(const Mesh                       &mesh,
-                    const std::vector<ShellSection>  &sections,
-                    const ShellKind                   kind,
-                    const std::vector<SymmetryPlane> &planes)
-    {
-      auto shell = std::make_unique<ShellMesh>(vectors_of(mesh.get_nodes()), mesh.get_triangles(),
-                                               thicknesses_of(sections), kind);
-      for (const SymmetryPlane &plane : planes)
-      {
-        std::vector<bool> is_in(mesh.n_nodes(), false);
-        for (const unsigned int node : plane.nodes)
-          is_in[node] = true;
-        Vector3<double> normal{};
-        normal[plane.axis] = 1.;
-        for (unsigned int edge = 0; edge < shell->edges().size(); ++edge)
-          if (is_in[shell->edges()[edge].begin] && is_in[shell->edges()[edge].end])
-            shell->lay_director(edge, normal);
-      }
-      return shell;
-    }
   } // namespace
 
-  FESpace::FESpace(const Mesh                       &mesh,
-                   std::vector<ShellSection>         sections_of_cells,
-                   const ShellKind                   shell_kind,
-                   const std::vector<SymmetryPlane> &planes)
+  FESpace::FESpace(const Mesh               &mesh,
+                   std::vector<ShellSection> sections_of_cells,
+                   const ShellKind           shell_kind)
       : mesh(mesh), kind(Element::P1), nodes_of_element(mesh, kind, shell_kind == ShellKind::plate),
         fe(dealii::FE_SimplexP<3>(1), 3), mapping(dealii::FE_SimplexP<3>(1)),
         sections(std::move(sections_of_cells)),
-        shell_mesh(make_shell_mesh(mesh, sections, shell_kind, planes))
+        shell_mesh(std::make_unique<ShellMesh>(vectors_of(mesh.get_nodes()),
+                                               mesh.get_triangles(),
+                                               thicknesses_of(sections),
+                                               shell_kind))
   {
     for (const ShellTriangle &triangle : shell_mesh->triangles())
       volumes.push_back(triangle.volume());
@@ -161,48 +148,63 @@ namespace Exemplar
     for (unsigned int node = 0; node < mesh.n_nodes(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
         positions[3 * node + c] = places[node][c];
-    const ShellStrains        strains(*shell_mesh);
-    const std::vector<double> slopes = strains.least_bending_slopes(
-        positions, [this](const unsigned int triangle) { return sections[triangle].elasticity; });
-    for (unsigned int edge = 0; edge < slopes.size(); ++edge)
-      positions[3 * shell_mesh->slope_node(edge)] = slopes[edge];
-    positions = with_tips(std::move(positions), std::vector<bool>(slopes.size(), false));
+    positions = with_tips_of_least_bending(std::move(positions), [this](const unsigned int triangle)
+                                           { return sections[triangle].elasticity; });
     for (unsigned int node = mesh.n_nodes(); node < n_nodes(); ++node)
       places.emplace_back(positions[3 * node], positions[3 * node + 1], positions[3 * node + 2]);
     return places;
   }
 
   Vector
+  FESpace::with_tips_of_least_bending(
+      Vector positions, const std::function<ShellElasticity(unsigned int)> &elasticity) const
+  {
+    const ShellStrains        strains(*shell_mesh);
+    const std::vector<double> slopes = strains.least_bending_slopes(positions, elasticity);
+    for (unsigned int edge = 0; edge < slopes.size(); ++edge)
+      positions[3 * shell_mesh->slope_node(edge)] = slopes[edge];
+    return with_tips(std::move(positions), HeldTips(slopes.size(), 0));
+  }
+
+  Vector
   FESpace::with_tips(Vector                     positions,
-                     const std::vector<bool>   &is_held,
+                     const HeldTips            &held,
                      const std::vector<double> &branches) const
   {
     ShellStrains strains(*shell_mesh);
     strains.set_branches(branches);
-    const Vector before = positions;
-    for (unsigned int edge = 0; edge < is_held.size(); ++edge)
-      if (!is_held[edge])
-      {
-        const Vector3<double> tip = strains.tip(edge, before);
-        for (unsigned int c = 0; c < 3; ++c)
-          positions[3 * shell_mesh->slope_node(edge) + c] = tip[c];
-      }
+    Vector before = positions;
+    if (std::any_of(held.begin(), held.end(), follows_edge))
+    {
+      strains.set_held(held);
+      const std::vector<double> slopes = strains.slopes(positions);
+      for (unsigned int edge = 0; edge < held.size(); ++edge)
+        before[3 * shell_mesh->slope_node(edge)] = slopes[edge];
+    }
+    for (unsigned int edge = 0; edge < held.size(); ++edge)
+      if (held[edge] != held_in_space)
+        place_at(shell_mesh->slope_node(edge), strains.tip(edge, before), positions);
     return positions;
   }
 
   Vector
   FESpace::with_slopes(Vector                     positions,
-                       const std::vector<bool>   &is_held,
+                       const HeldTips            &held,
                        const std::vector<double> &branches) const
   {
     ShellStrains strains(*shell_mesh);
     strains.set_branches(branches);
-    strains.set_held(std::vector<bool>(is_held.size(), true));
+    strains.set_held(HeldTips(held.size(), held_in_space));
     const std::vector<double> slopes = strains.slopes(positions);
-    for (unsigned int edge = 0; edge < is_held.size(); ++edge)
-      if (!is_held[edge])
-        for (unsigned int c = 0; c < 3; ++c)
-          positions[3 * shell_mesh->slope_node(edge) + c] = c == 0 ? slopes[edge] : 0.;
+    strains.set_held(held);
+    for (unsigned int edge = 0; edge < held.size(); ++edge)
+    {
+      const unsigned int node = shell_mesh->slope_node(edge);
+      if (held[edge] == 0)
+        place_at(node, { { slopes[edge], 0., 0. } }, positions);
+      else
+        place_at(node, strains.held_node(edge, place_in(positions, node), positions), positions);
+    }
     return positions;
   }
 
@@ -211,7 +213,7 @@ namespace Exemplar
   {
     ShellStrains strains(*shell_mesh);
     if (nodes_of_element.has_slopes())
-      strains.set_held(std::vector<bool>(shell_mesh->edges().size(), true));
+      strains.set_held(HeldTips(shell_mesh->edges().size(), held_in_space));
     return strains.strains(positions_with_tips);
   }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -55,6 +56,29 @@ namespace Exemplar
       return fe_space.numbering().with_middles(std::move(vertices));
     }
 
+    std::vector<Handle::FollowingTip>
+    find_following_tips(const Handle &handle, const FESpace &fe_space)
+    {
+      std::vector<Handle::FollowingTip> tips;
+      if (!follows_edge(handle.held_components()))
+        return tips;
+      const auto point_of = [&](const unsigned int node)
+      {
+        return static_cast<std::size_t>(
+            std::lower_bound(handle.nodes.begin(), handle.nodes.end(), node)
+            - handle.nodes.begin());
+      };
+      for (std::size_t point = 0; point < handle.nodes.size(); ++point)
+        if (const unsigned int node = handle.nodes[point]; node >= handle.first_slope)
+        {
+          const unsigned int edge = node - handle.first_slope;
+          const ShellEdge   &of   = fe_space.shell().edges()[edge];
+          tips.push_back({ point, point_of(of.begin), point_of(of.end),
+                           TipFrame(fe_space.shell(), edge, handle.held_components()) });
+        }
+      return tips;
+    }
+
     /// Check the displacements that a program's function has given for `n_points`.
     std::vector<dealii::Tensor<1, 3>>
     checked(std::vector<dealii::Tensor<1, 3>> displacements,
@@ -91,7 +115,8 @@ namespace Exemplar
                    {},
                    {},
                    p.holding_time() };
-    handle.first_slope = fe_space.numbering().n_places();
+    handle.first_slope    = fe_space.numbering().n_places();
+    handle.following_tips = find_following_tips(handle, fe_space);
     if (!p.follow_pose.empty())
     {
       const auto pose = fe_space.complete(
@@ -124,11 +149,29 @@ namespace Exemplar
   std::vector<dealii::Tensor<1, 3>>
   Handle::displacements(const std::vector<dealii::Point<3>> &rest, const double time) const
   {
-    if (function)
-      return checked(function(rest, time), rest.size(), "Handles/" + name, time);
     std::vector<dealii::Tensor<1, 3>> result;
-    for (unsigned int point = 0; point < nodes.size(); ++point)
-      result.push_back(displacement(point, rest[point], time));
+    if (function)
+      result = checked(function(rest, time), rest.size(), "Handles/" + name, time);
+    else
+      for (unsigned int point = 0; point < nodes.size(); ++point)
+        result.push_back(displacement(point, rest[point], time));
+    const auto place = [&](const std::size_t point)
+    {
+      const dealii::Point<3> x = rest[point] + result[point];
+      return Vector3<double>{ { x[0], x[1], x[2] } };
+    };
+    const HeldComponents held = held_components();
+    for (const auto &[point, begin, end, frame] : following_tips)
+      if (path && !function) // whose edges may have turned with the normals
+      {
+        const Vector3<double> node = frame.node(place(begin), place(end), place(point));
+        for (unsigned int c = 0; c < 3; ++c)
+          result[point][c] = node[c] - rest[point][c];
+      }
+      else
+        for (unsigned int c = 0; c < 3; ++c)
+          if ((held >> c & 1U) == 0)
+            result[point][c] -= 0.5 * (result[begin][c] + result[end][c]);
     return result;
   }
 } // namespace Exemplar

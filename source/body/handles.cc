@@ -76,7 +76,8 @@ namespace Exemplar
   {
     std::vector<Holding> all;
     for (const Handle &handle : handles)
-      all.push_back({ handle.holds, handle.nodes, handle.components, handle.function });
+      all.push_back({ handle.holds, handle.nodes, handle.components, handle.function,
+                      handle.following_tips });
     return all;
   }
 
@@ -87,10 +88,11 @@ namespace Exemplar
       handles.pop_back();
     for (std::size_t h = 0; h < handles.size(); ++h)
     {
-      handles[h].holds      = holding[h].holds;
-      handles[h].nodes      = holding[h].nodes;
-      handles[h].components = holding[h].components;
-      handles[h].function   = holding[h].function;
+      handles[h].holds          = holding[h].holds;
+      handles[h].nodes          = holding[h].nodes;
+      handles[h].components     = holding[h].components;
+      handles[h].following_tips = holding[h].following_tips;
+      handles[h].function       = holding[h].function;
     }
   }
 
@@ -127,6 +129,7 @@ namespace Exemplar
       named->components = xyz;
       named->function   = std::move(moving);
       named->holds      = true;
+      named->following_tips.clear();
       return;
     }
     handles.push_back({ name,
@@ -149,6 +152,36 @@ namespace Exemplar
     return { dofs.begin(), dofs.end() };
   }
 
+  HeldTips
+  Handles::held_tips() const
+  {
+    const unsigned int first = fe_space.numbering().n_places();
+    HeldTips           tips(fe_space.n_nodes() - first, 0);
+    for (const Handle &handle : handles)
+      for (const unsigned int node : handle.held_nodes())
+        if (node >= first)
+          tips[node - first] |= handle.held_components();
+    return tips;
+  }
+
+  void
+  Handles::set_positions(const Handle                            &handle,
+                         const std::vector<dealii::Tensor<1, 3>> &displacements,
+                         const HeldTips                          &tips,
+                         dealii::Vector<double>                  &positions) const
+  {
+    const unsigned int first = fe_space.numbering().n_places();
+    for (unsigned int point = 0; point < handle.held_nodes().size(); ++point)
+    {
+      const unsigned int node  = handle.nodes[point];
+      const unsigned int other = node < first ? 0 : tips[node - first] & ~handle.held_components();
+      for (const unsigned int c : handle.components_of(node))
+        if ((other >> c & 1U) == 0)
+          positions[3 * node + c]
+              = fe_space.rest_positions()[3 * node + c] + displacements[point][c];
+    }
+  }
+
   void
   Handles::move_by_formulas(const double time, dealii::Vector<double> &positions) const
   {
@@ -168,20 +201,17 @@ namespace Exemplar
   void
   Handles::move(const double time, dealii::Vector<double> &positions) const
   {
-    if (std::none_of(handles.begin(), handles.end(), [](const Handle &h) { return h.function; }))
+    if (std::none_of(handles.begin(), handles.end(),
+                     [](const Handle &h) { return h.function || !h.following_tips.empty(); }))
     {
       const auto action = [&] { move_by_formulas(time, positions); };
       do_in_agreement(fe_space.exchange(), std::cref(action)); // one process alone may fail
       return;
     }
-    const Displacements all = displacements(time);
+    const Displacements all  = displacements(time);
+    const HeldTips      tips = held_tips();
     for (unsigned int h = 0; h < handles.size(); ++h)
-      for (unsigned int point = 0; point < handles[h].held_nodes().size(); ++point)
-      {
-        const unsigned int node = handles[h].nodes[point];
-        for (const unsigned int c : handles[h].components_of(node))
-          positions[3 * node + c] = fe_space.rest_positions()[3 * node + c] + all[h][point][c];
-      }
+      set_positions(handles[h], all[h], tips, positions);
     // motions by functions could not be checked at all times before
     check_agreement(handles, shared_nodes(handles), all, time, mesh, fe_space);
   }
@@ -210,7 +240,7 @@ namespace Exemplar
     dealii::Tensor<1, 3> sum;
     const Exchange      &exchange = fe_space.exchange();
     for (const unsigned int node : handles[handle].held_nodes())
-      for (const unsigned int c : handles[handle].components_of(node))
+      for (const unsigned int c : handles[handle].components)
         if (exchange.owns(node))
           sum[c] += field[3 * node + c];
     exchange.sum(sum.begin_raw(), 3);

@@ -143,15 +143,6 @@ namespace Exemplar
       }
   }
 
-  void
-  ShellMesh::lay_director(const unsigned int edge, const Vector3<double> &normal_of_plane)
-  {
-    ShellEdge            &of = all_edges[edge];
-    const Vector3<double> along
-        = cross(normal_of_plane, difference(vertices[of.end], vertices[of.begin]));
-    of.normal = times((dot(along, of.normal) < 0. ? -1. : 1.) / norm(along), along);
-  }
-
   Vector3<double>
   ShellMesh::tip(const unsigned int edge) const
   {

@@ -24,6 +24,17 @@ namespace Exemplar
       return x;
     }
 
+    /// The bending strain of a triangle for turns at its edges.
+    ShellStrain
+    curvature_of(const ShellTriangle &triangle, const std::array<double, 3> &turns)
+    {
+      ShellStrain strain{};
+      for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+          strain[3 + k] += turns[i] * triangle.bending[i][k];
+      return strain;
+    }
+
     /// The matrix and the right side of the slopes of least bending energy.
     class BendingSystem
     {
@@ -55,14 +66,8 @@ namespace Exemplar
           const ShellElasticity       &elasticity,
           const std::array<double, 3> &turns)
       {
-        const auto with_turns = [&](const std::array<double, 3> &some)
-        {
-          ShellStrain strain{};
-          for (int i = 0; i < 3; ++i)
-            for (int k = 0; k < 3; ++k)
-              strain[3 + k] += some[i] * triangle.bending[i][k];
-          return strain;
-        };
+        const auto with_turns = [&triangle](const std::array<double, 3> &some)
+        { return curvature_of(triangle, some); };
         const ShellStrain stress = elasticity.stress(with_turns(turns));
         for (int i = 0; i < 3; ++i)
         {
@@ -85,9 +90,16 @@ namespace Exemplar
       std::vector<double>
       solve()
       {
+        return solve(std::move(right_side));
+      }
+
+      /// The same for another right side.
+      std::vector<double>
+      solve(std::vector<double> other_side)
+      {
         solver->factorize({});
-        solver->solve(right_side);
-        return std::move(right_side);
+        solver->solve(other_side);
+        return other_side;
       }
 
     private:
@@ -99,17 +111,33 @@ namespace Exemplar
   } // namespace
 
   ShellStrains::ShellStrains(const ShellMesh &mesh)
-      : mesh(mesh), held(mesh.edges().size(), false),
+      : mesh(mesh), held(mesh.edges().size(), 0),
         last_angles(mesh.edges().size(), angles_in_a_plane)
   {
     find_turns();
   }
 
   void
-  ShellStrains::set_held(const std::vector<bool> &new_held)
+  ShellStrains::set_held(const HeldTips &new_held)
   {
     held = new_held;
     find_turns();
+  }
+
+  Vector
+  ShellStrains::with_fourth_nodes(Vector positions) const
+  {
+    for (unsigned int edge = 0; edge < mesh.n_slopes(); ++edge)
+      if (const int frame = frame_of_edge[edge]; frame >= 0)
+      {
+        const unsigned int    node = mesh.slope_node(edge);
+        const ShellEdge      &of   = mesh.edges()[edge];
+        const Vector3<double> at   = frames[frame].place(
+              place_in(positions, of.begin), place_in(positions, of.end), place_in(positions, node));
+        for (unsigned int c = 0; c < 3; ++c)
+          positions[3 * node + c] = at[c];
+      }
+    return positions;
   }
 
   ShellTurn
@@ -121,12 +149,17 @@ namespace Exemplar
     const auto           add_hinge = [&](ShellHinge hinge)
     {
       const auto x = rest_places(mesh, hinge);
-      hinge.rest   = HingeAngle<double>(x[0], x[1], x[2], x[3]).value();
-      hinge.rest   = nearest(number, hinge.kind, hinge.rest);
+      if (hinge.kind != 0 && frame_of_edge[number] >= 0)
+      {
+        hinge.frame = frame_of_edge[number];
+        hinge.shift = (hinge.kind == 1 ? -1. : 1.) * frames[hinge.frame].turned_by();
+      }
+      hinge.rest = HingeAngle<double>(x[0], x[1], x[2], x[3]).value();
+      hinge.rest = nearest(number, hinge.kind, hinge.rest);
       hinges.push_back(hinge);
       return static_cast<int>(hinges.size()) - 1;
     };
-    if (held[number])
+    if (is_held(number))
       return { add_hinge({ { { of.nodes[i], of.nodes[(i + 1) % 3], of.nodes[(i + 2) % 3],
                                mesh.slope_node(number) } },
                            0.,
@@ -156,6 +189,14 @@ namespace Exemplar
   void
   ShellStrains::find_turns()
   {
+    frames.clear();
+    frame_of_edge.assign(mesh.edges().size(), -1);
+    for (unsigned int edge = 0; edge < mesh.n_slopes(); ++edge)
+      if (follows_edge(held[edge]))
+      {
+        frame_of_edge[edge] = static_cast<int>(frames.size());
+        frames.emplace_back(mesh, edge, held[edge]);
+      }
     hinges.clear();
     turns_of_triangles.assign(mesh.triangles().size(), {});
     std::vector<int> hinge_of_edge(mesh.edges().size(), -1);
@@ -175,9 +216,32 @@ namespace Exemplar
   HingeAngle<double>
   ShellStrains::hinge_angle(const unsigned int hinge, const Vector &positions) const
   {
-    const auto &nodes = hinges[hinge].nodes;
-    return { place_in(positions, nodes[0]), place_in(positions, nodes[1]),
-             place_in(positions, nodes[2]), place_in(positions, nodes[3]) };
+    const auto                    &nodes = hinges[hinge].nodes;
+    const int                      frame = hinges[hinge].frame;
+    std::array<Vector3<double>, 4> x;
+    for (int i = 0; i < 4; ++i)
+      x[i] = place_in(positions, nodes[i]);
+    if (frame >= 0)
+      x[3] = frames[frame].place(x[0], x[1], x[3]);
+    return { x[0], x[1], x[2], x[3] };
+  }
+
+  HingeForm<double>
+  ShellStrains::hinge_gradient(const unsigned int hinge, const Vector &positions) const
+  {
+    return pulled_back(hinge, hinge_angle(hinge, positions).gradient());
+  }
+
+  std::array<HingeProduct<double>, 4>
+  ShellStrains::hinge_hessian(const unsigned int hinge, const Vector &positions) const
+  {
+    auto products = hinge_angle(hinge, positions).hessian();
+    for (HingeProduct<double> &product : products)
+    {
+      product.a = pulled_back(hinge, product.a);
+      product.b = pulled_back(hinge, product.b);
+    }
+    return products;
   }
 
   double
@@ -190,7 +254,7 @@ namespace Exemplar
   ShellStrains::change(const unsigned int hinge, const HingeAngle<double> &angle) const
   {
     const ShellHinge &of = hinges[hinge];
-    return nearest(of.edge, of.kind, angle.value()) - of.rest;
+    return nearest(of.edge, of.kind, angle.value() + of.shift) - of.rest;
   }
 
   void
@@ -203,7 +267,7 @@ namespace Exemplar
          ++edge) // those that are no hinges now, but may be later
     {
       auto &angles = last_angles[edge];
-      if (held[edge])
+      if (is_held(edge))
       {
         angles[0] = angles[1] + angles[2] - angles_in_a_plane[1] - angles_in_a_plane[2];
         angles[0] = angle_of_triangles(edge, positions);
@@ -298,7 +362,7 @@ namespace Exemplar
     std::vector<double> of_hinges(hinges.size(), 0.);
     for (unsigned int h = 0; h < hinges.size(); ++h)
     {
-      const HingeForm<double> form = hinge_angle(h, positions).gradient();
+      const HingeForm<double> form = hinge_gradient(h, positions);
       for (int i = 0; i < 4; ++i)
         of_hinges[h] += dot(form[i], place_in(along, hinges[h].nodes[i]));
     }
@@ -342,7 +406,7 @@ namespace Exemplar
     }
     for (unsigned int h = 0; h < hinges.size(); ++h)
     {
-      const HingeForm<double> form = hinge_angle(h, positions).gradient();
+      const HingeForm<double> form = hinge_gradient(h, positions);
       for (int i = 0; i < 4; ++i)
         add(hinges[h].nodes[i], of_hinges[h], form[i]);
     }
@@ -366,7 +430,7 @@ namespace Exemplar
   {
     std::vector<double> result(mesh.edges().size());
     for (unsigned int edge = 0; edge < result.size(); ++edge)
-      if (!held[edge])
+      if (!is_held(edge))
         result[edge] = positions[3 * mesh.slope_node(edge)];
     for (unsigned int i = 0; i < hinges.size(); ++i)
       if (hinges[i].kind == 1)
@@ -395,6 +459,18 @@ namespace Exemplar
     return combine(1., combine(0.5, begin, 0.5, end), of.length, normal);
   }
 
+  Vector3<double>
+  ShellStrains::held_node(const unsigned int     edge,
+                          const Vector3<double> &tip,
+                          const Vector          &positions) const
+  {
+    const ShellEdge &of    = mesh.edges()[edge];
+    const int        frame = frame_of_edge[edge];
+    return frame < 0 ? tip
+                     : frames[frame].node(place_in(positions, of.begin),
+                                          place_in(positions, of.end), tip);
+  }
+
   std::vector<double>
   ShellStrains::least_bending_slopes(
       const Vector &positions, const std::function<ShellElasticity(unsigned int)> &elasticity) const
@@ -418,10 +494,34 @@ namespace Exemplar
     return slopes;
   }
 
+  std::vector<ShellStrain>
+  ShellStrains::adjoint_of_least_bending(
+      const std::vector<double>                          &by_slopes,
+      const std::function<ShellElasticity(unsigned int)> &elasticity) const
+  {
+    BendingSystem system(mesh);
+    for (unsigned int t = 0; t < mesh.triangles().size(); ++t)
+      system.add(mesh.triangles()[t], elasticity(t), {});
+    std::vector<double> by_turns = by_slopes;
+    for (unsigned int edge = 0; edge < by_turns.size(); ++edge)
+      by_turns[edge] *= mesh.edges()[edge].length;
+    const std::vector<double> adjoint = system.solve(std::move(by_turns));
+    std::vector<ShellStrain>  result;
+    for (const ShellTriangle &triangle : mesh.triangles())
+    {
+      std::array<double, 3> turns{};
+      for (int i = 0; i < 3; ++i)
+        turns[i] = triangle.signs[i] * adjoint[triangle.edges[i]];
+      result.push_back(curvature_of(triangle, turns));
+    }
+    return result;
+  }
+
   std::size_t
   ShellStrains::memory_consumption() const
   {
     return hinges.capacity() * sizeof(ShellHinge) + last_angles.capacity() * sizeof(last_angles[0])
-           + turns_of_triangles.capacity() * sizeof(turns_of_triangles[0]) + held.capacity() / 8;
+           + turns_of_triangles.capacity() * sizeof(turns_of_triangles[0]) + held.capacity()
+           + frames.capacity() * sizeof(TipFrame) + frame_of_edge.capacity() * sizeof(int);
   }
 } // namespace Exemplar

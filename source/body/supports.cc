@@ -99,15 +99,17 @@ namespace Exemplar
 
   namespace
   {
-    /// The same of nodes about a center, of which some degrees of freedom are held; lengths are in diameters.
+    /// The same of nodes about a center, of which some degrees of freedom are held, and turns about some axes; lengths are in
+    /// diameters.
     unsigned int
-    n_free_rigid_motions(const std::vector<dealii::Point<3>> &nodes,
-                         const dealii::Point<3>              &center,
-                         const double                         diameter,
-                         const std::vector<unsigned int>     &held)
+    n_free_rigid_motions(const std::vector<dealii::Point<3>>     &nodes,
+                         const dealii::Point<3>                  &center,
+                         const double                             diameter,
+                         const std::vector<unsigned int>         &held,
+                         const std::vector<dealii::Tensor<1, 3>> &axes)
     {
       // rows: the values of the six rigid motions at a held degree of freedom
-      dealii::FullMatrix<double> motions(held.size(), 6);
+      dealii::FullMatrix<double> motions(held.size() + axes.size(), 6);
       for (unsigned int row = 0; row < held.size(); ++row)
       {
         const unsigned int         node = held[row] / 3, c = held[row] % 3;
@@ -117,6 +119,9 @@ namespace Exemplar
         motions(row, 3 + d)          = r[e]; // (omega x r)_c = omega_d r_e - omega_e r_d
         motions(row, 3 + e)          = -r[d];
       }
+      for (unsigned int row = 0; row < axes.size(); ++row)
+        for (unsigned int c = 0; c < 3; ++c)
+          motions(held.size() + row, 3 + c) = axes[row][c];
       return 6 - rank(motions, 1e-8);
     }
   } // namespace
@@ -125,7 +130,8 @@ namespace Exemplar
   n_free_rigid_motions(const Mesh                      &mesh,
                        const FESpace                   &fe_space,
                        const std::vector<unsigned int> &held_dofs,
-                       const std::vector<unsigned int> &joined)
+                       const std::vector<unsigned int> &joined,
+                       const HeldTips                  &tips)
   {
     const Exchange                     &exchange = mesh.exchange();
     const auto                         &rest     = fe_space.rest_positions();
@@ -140,6 +146,15 @@ namespace Exemplar
       const auto own_piece = static_cast<unsigned int>(piece);
       return joined.empty() ? own_piece : joined[own_piece];
     };
+    const unsigned int first_tip = fe_space.numbering().n_places();
+    const auto         follows   = [&](const unsigned int node)
+    { return !tips.empty() && node >= first_tip && follows_edge(tips[node - first_tip]); };
+    const auto direction_of_edge = [&](const unsigned int node)
+    {
+      const auto &[a, b]              = fe_space.numbering().ends(node);
+      const dealii::Tensor<1, 3> edge = nodes[b] - nodes[a];
+      return edge / edge.norm();
+    };
     std::vector<unsigned int> n_free;
     for (unsigned int piece = 0; piece < mesh.n_pieces(); ++piece)
     {
@@ -148,12 +163,18 @@ namespace Exemplar
       for (unsigned int node = 0; node < mesh.whole().n_nodes; ++node)
         if (leader_of(pieces[node]) == piece)
           vertices.push_back(nodes[node]);
+      std::vector<dealii::Tensor<1, 3>> axes;
       for (const unsigned int dof : held)
         if (leader_of(pieces[dof / 3]) == piece)
-          of_piece.push_back(dof);
+        {
+          if (!follows(dof / 3))
+            of_piece.push_back(dof);
+          else if (dof % 3 == 0)
+            axes.push_back(direction_of_edge(dof / 3));
+        }
       n_free.push_back(vertices.empty() ? 0
                                         : n_free_rigid_motions(nodes, centroid(vertices),
-                                                               mesh.diameter(), of_piece));
+                                                               mesh.diameter(), of_piece, axes));
     }
     return n_free;
   }

@@ -217,15 +217,40 @@ namespace Exemplar
   ShellBody::find_strains(const Vector &positions, const RotationUse rotations)
   {
     volumes.find_changes(positions);
-    const HingeTask of_hinges{ positions.begin(),         arrays.hinge_nodes.data(),
-                               arrays.rest_angles.data(), arrays.last_angles.data(),
-                               arrays.changes.data(),     arrays.forms.data(),
-                               arrays.lengths.data() };
-    for_each_batch(strains.get_hinges().size(), [&](const std::size_t begin, const std::size_t end)
-                   { shell_kernels().find_hinges(of_hinges, begin, end); });
+    find_hinges(positions);
     const TriangleTask task = triangle_task(positions, nullptr, rotations != RotationUse::keep);
     for_each_batch(task.n, [&](const std::size_t begin, const std::size_t end)
                    { shell_kernels().find_strains(task, begin, end); });
+  }
+
+  void
+  ShellBody::find_hinges(const Vector &positions)
+  {
+    Vector with_fourth_nodes;
+    if (strains.has_frames())
+      with_fourth_nodes = strains.with_fourth_nodes(positions);
+    const Vector   &at = strains.has_frames() ? with_fourth_nodes : positions;
+    const HingeTask of_hinges{ at.begin(),
+                               arrays.hinge_nodes.data(),
+                               arrays.rest_angles.data(),
+                               arrays.last_angles.data(),
+                               arrays.changes.data(),
+                               arrays.forms.data(),
+                               arrays.lengths.data() };
+    for_each_batch(strains.get_hinges().size(), [&](const std::size_t begin, const std::size_t end)
+                   { shell_kernels().find_hinges(of_hinges, begin, end); });
+    for (std::size_t h = 0; strains.has_frames() && h < strains.get_hinges().size(); ++h)
+      if (strains.get_hinges()[h].frame >= 0)
+      {
+        HingeForm<double> form;
+        for (unsigned int k = 0; k < 12; ++k)
+          form[k / 3][k % 3] = arrays.forms[batch_index(h, 12, k)];
+        form = strains.pulled_back(h, form);
+        for (unsigned int k = 0; k < 12; ++k)
+          arrays.forms[batch_index(h, 12, k)] = form[k / 3][k % 3];
+        for (unsigned int i = 0; i < 4; ++i)
+          arrays.lengths[batch_index(h, 4, i)] = norm(form[i]);
+      }
   }
 
   void

@@ -46,7 +46,7 @@ namespace Exemplar
                   {
                     for (unsigned int i = 0; i < 4; ++i)
                       arrays.hinge_nodes[batch_index(place, 4, i)] = hinges[h].nodes[i];
-                    arrays.rest_angles[place] = hinges[h].rest;
+                    arrays.rest_angles[place] = hinges[h].rest - hinges[h].shift;
                   });
     write_branches();
     const std::size_t n_triangles = parts.mesh.triangles().size();
@@ -74,8 +74,9 @@ namespace Exemplar
   void
   ShellBody::write_branches()
   {
-    for_each_lane(strains.get_hinges().size(), [&](const std::size_t place, const std::size_t h)
-                  { arrays.last_angles[place] = strains.last_angle(h); });
+    for_each_lane(
+        strains.get_hinges().size(), [&](const std::size_t place, const std::size_t h)
+        { arrays.last_angles[place] = strains.last_angle(h) - strains.get_hinges()[h].shift; });
   }
 
   void

@@ -75,11 +75,12 @@ namespace Exemplar
   void
   ShellBody::attach(const SymmetricPattern &new_pattern)
   {
-    pattern                = &new_pattern;
-    const ShellMesh  &mesh = parts.mesh;
-    std::vector<bool> held(mesh.edges().size(), false);
+    pattern               = &new_pattern;
+    const ShellMesh &mesh = parts.mesh;
+    HeldTips         held(mesh.edges().size(), 0);
     for (unsigned int edge = 0; edge < mesh.n_slopes(); ++edge)
-      held[edge] = parts.free_dofs.free_index(3 * mesh.slope_node(edge)) == FreeDofs::held;
+      if (parts.free_dofs.free_index(3 * mesh.slope_node(edge)) == FreeDofs::held)
+        held[edge] = parts.held_tips != nullptr ? (*parts.held_tips)[edge] : held_in_space;
     strains.set_held(held);
     write_hinges();
     write_triangles();
@@ -168,7 +169,7 @@ namespace Exemplar
       }
       else if (turn.hinge >= 0)
       {
-        const HingeForm<double> gradient = strains.hinge_angle(turn.hinge, positions).gradient();
+        const HingeForm<double> gradient = strains.hinge_gradient(turn.hinge, positions);
         for (int k = 0; k < 4; ++k)
           for (int c = 0; c < 3; ++c)
             add(i, turn.of_hinge * gradient[k][c], to.B[dofs[t].hinges[i][k] + c]);
@@ -285,7 +286,7 @@ namespace Exemplar
   {
     const int   hinge = strains.turns(t)[edge].hinge;
     const auto &at    = dofs[t].hinges[edge];
-    for (const HingeProduct<double> &of : strains.hinge_angle(hinge, positions).hessian())
+    for (const HingeProduct<double> &of : strains.hinge_hessian(hinge, positions))
       for (unsigned int p = 0; p < 12; ++p)
         for (unsigned int q = 0; q < 12; ++q)
           if (const unsigned int row = at[p / 3] + p % 3, column = at[q / 3] + q % 3; row >= column)

@@ -117,6 +117,63 @@ class GradientsOfShells(unittest.TestCase):
         self.assertGreater(abs(value - exact), 1e-9)
         self.assertLess(abs(value + found[1].correction(BY_POSITIONS[0]) - exact), .1 * abs(value - exact))
 
+    def test_poses_whose_slopes_follow_the_material(self):
+        """Poses without tips have slopes of least bending energy; a new scene and set_material() have the same ones."""
+        base = {**STATIC, "Examples": {**STATIC["Examples"], "Weights": "prescribed", "Prescribed weights": "0.3; 0.5; 0.2"}}
+
+        def value(by_setter, **constants):
+            material = {"Young's modulus": constants.get("young", 1e5), "Poisson's ratio": constants.get("poisson", .3), "Thickness": constants.get("thickness", .03)}
+            scene = base if by_setter else {**base, "Material": {**base["Material"], **material}}
+            problem = exemplar.Problem(scene, mesh=(NODES, CELLS), poses=POSES)
+            if by_setter:
+                problem.set_material(**constants)
+            problem.step()
+            return (BY_POSITIONS[0] * problem.positions).sum(), problem
+        gradients = value(False)[1].vjp(BY_POSITIONS[0], np.zeros(3))
+        for key, at, setters in (("poisson", .3, (True, False)), ("thickness", .03, (False,))):
+            for by_setter in setters:
+                h = 1e-4 * at
+                quotient = (value(by_setter, **{key: at + h})[0] - value(by_setter, **{key: at - h})[0]) / (2 * h)
+                with self.subTest(key, by_setter=by_setter):
+                    self.assertLess(abs(gradients[key].sum() / quotient - 1), 1e-6, (gradients[key].sum(), quotient))
+        pattern = random.uniform(-1., 1., len(CELLS))
+        for key, at in ("young", 1e5), ("poisson", .3):
+            h = 1e-4 * at
+            quotient = (value(True, **{key: at + h * pattern})[0] - value(True, **{key: at - h * pattern})[0]) / (2 * h)
+            with self.subTest(key + " of triangles"):
+                self.assertLess(abs((gradients[key] * pattern).sum() / quotient - 1), 1e-6, ((gradients[key] * pattern).sum(), quotient))
+
+    def test_motions_of_planes_of_symmetry(self):
+        """In a plane across y, and along a line of which y and z are held, tips follow their edges in the other components."""
+        nodes = np.array(vertices) + .05 * np.array(vertices)[:, :1] ** 2 * [0, 0, 1]
+        for components in "y", "y, z":
+            base = {**DYNAMIC, "Handles": {"left": STATIC["Handles"]["left"], "plane": {"Select": "box 0.1 -1 -1 2 1e-9 1", "Components": components, "Slopes": "held"}}}
+            base.pop("Examples")
+            shape = []
+
+            def record(change):
+                problem = exemplar.Problem(base, mesh=(nodes, CELLS))
+
+                def motion(rest, t):
+                    shape[:] = rest.shape
+                    return np.sin(3 * t) * np.array([.1, .05, -.1]) + .3 * t * np.cross([1., 0., 0.], rest) + (0. if change is None else change)
+                problem.set_motion("plane", motion)
+                with problem.record() as trajectory:
+                    for _ in range(STEPS):
+                        problem.step()
+                return trajectory
+            trajectory = record(None)
+            found = trajectory.vjp(list(BY_POSITIONS))["handles"]
+            n, on_plane = len(nodes), np.flatnonzero((np.abs(nodes[:, 1]) < 1e-9) & (nodes[:, 0] > .1))
+            edges = [n + k for k, (a, b) in enumerate(EDGES) if a in on_plane and b in on_plane]
+            rows = np.array([*on_plane, *edges])
+            self.assertEqual(len(rows), shape[0])
+            direction = random.normal(size=(len(rows), 3))
+            h = 1e-5
+            quotient = sum((BY_POSITIONS * (record(h * direction).positions - record(-h * direction).positions)).ravel()) / (2 * h)
+            with self.subTest(components):
+                self.assertLess(abs((found[rows] * direction).sum() / quotient - 1), 1e-6, ((found[rows] * direction).sum(), quotient))
+
     def test_what_is_refused(self):
         ball = np.array([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]], float), np.array([[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]])
         base = {**STATIC, "Material": {**STATIC["Material"], "Volume stiffness": 1e3},

@@ -204,6 +204,36 @@ class Obstacles(ShellObstacleTest):
                 self.assertEqual((one / "final.msh").read_bytes(), (half / "final.msh").read_bytes())
 
 
+    def test_a_factor_takes_the_place_of_multigrid(self):
+        keys = {**SHEET, "Obstacles/thing/Shape": "sphere 0.03 0.02 -0.15 0.12", "Obstacles/thing/Friction": "0.3", "Time/End": "0.2"}
+        iterative = self.attempt({**keys, "Solver/Linear solver": "iterative"}, output="iterative")
+        self.assertEqual(iterative.status, 0)
+        self.assertIn("cholesky is used instead", iterative.stderr)
+        factor = self.solve({**keys, "Solver/Linear solver": "cholesky"}, output="factor")
+        self.assertEqual((factor / "final.msh").read_bytes(), (iterative.output / "final.msh").read_bytes())
+
+    def test_a_sheet_has_room_between_two_rollers(self):
+        """A gap of 7 mm for a sheet of 5 mm: the automatic distance leaves 1 mm at both sides, as a distance that is given does."""
+        points, triangles = grid(12, 4, "alternating")
+        self.write("sheet.obj", obj_text([(.6 * x, .2 * y, 0.) for x, y in points], triangles))
+        keys = {**SHEET, "Material/Thickness": "0.005", "Material/Young's modulus": "1e7", "Handles/Names": "pull", "Handles/pull/Select": "box -1 -1 -1 1e-6 1 1",
+                "Handles/pull/Motion": "-0.5*t; 0; 0", "Obstacles/Names": "low, high", "Obstacles/Distance": "auto", "Obstacles/thing/Shape": None,
+                "Obstacles/low/Shape": "capsule 0.1 -0.3 -0.0535  0.1 0.6 -0.0535  0.05", "Obstacles/high/Shape": "capsule 0.1 -0.3 0.0535  0.1 0.6 0.0535  0.05",
+                "Time/End": "0.2"}
+        found = self.attempt(keys, output="found")
+        self.assertEqual(found.status, 0)
+        self.assertIn("Obstacles/Distance = auto is 0.001 m instead of", found.stdout)
+        given = self.attempt({**keys, "Obstacles/Distance": "0.001"}, output="given")
+        self.assertNotIn("instead of", given.stdout)
+        self.assertLess(np.abs(self.places(found.output) - self.places(given.output)).max(), 1e-6)
+        # rollers that are as far apart as that distance needs, that touch, or that move apart have the usual one
+        for high, motion in (.0735, "0; 0; 0"), (.0465, "0; 0; 0"), (.0535, "0; 0; 0.1*t"):
+            away = self.attempt({**keys, "Obstacles/high/Shape": f"capsule 0.7 -0.3 {high}  0.7 0.6 {high}  0.05", "Obstacles/low/Shape": "capsule 0.7 -0.3 -0.0535  0.7 0.6 -0.0535  0.05",
+                                 "Obstacles/high/Motion": motion, "Time/End": "0.02"}, output="away")
+            self.assertEqual(away.status, 0)
+            self.assertNotIn("instead of", away.stdout)
+
+
 class Starts(ShellObstacleTest):
     def test_what_is_drawn_on_an_obstacle_stands(self):
         # with its middle, as sheets are drawn, or with its side

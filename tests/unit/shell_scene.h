@@ -23,7 +23,7 @@ namespace Exemplar::Testing
 
     explicit ShellScene(ShellMesh                        of_shell,
                         const std::vector<Vector>       &poses            = {},
-                        const std::vector<bool>         &held             = {},
+                        const HeldTips                  &held             = {},
                         const std::vector<unsigned int> &more_held        = {},
                         const double                     poissons         = nu,
                         const double                     volume_stiffness = 0.)
@@ -35,7 +35,8 @@ namespace Exemplar::Testing
           targets_of_volumes({ 1, { 0 } },
                              WeightNumbers(examples.n_weights()),
                              std::vector<double>(enclosed.size(), 1.)),
-          free_dofs(3 * mesh.n_nodes(), held_dofs(held, more_held), Exchange::serial())
+          free_dofs(3 * mesh.n_nodes(), held_dofs(held, more_held), Exchange::serial()),
+          held_tips(held.empty() ? HeldTips(mesh.edges().size(), 0) : held)
     {
       examples.set_importance(eta);
       ShellStrains strains(mesh);
@@ -75,7 +76,7 @@ namespace Exemplar::Testing
     {
       body    = std::make_unique<ShellBody>(ShellParts{ mesh, fe_space, material, examples, targets,
                                                      enclosed, targets_of_volumes, *weights,
-                                                     free_dofs, n });
+                                                     free_dofs, n, &held_tips });
       pattern = body->make_pattern({}, false);
       body->attach(pattern);
     }
@@ -161,6 +162,7 @@ namespace Exemplar::Testing
     EnclosedVolumes               enclosed;
     TargetBlock                   targets_of_volumes;
     FreeDofs                      free_dofs;
+    HeldTips                      held_tips;
     std::optional<ExampleWeights> weights;
     std::unique_ptr<ShellBody>    body;
     SymmetricPattern              pattern;
@@ -204,10 +206,10 @@ namespace Exemplar::Testing
     }
 
     std::vector<unsigned int>
-    held_dofs(const std::vector<bool> &held, std::vector<unsigned int> all) const
+    held_dofs(const HeldTips &held, std::vector<unsigned int> all) const
     {
       for (unsigned int edge = 0; edge < mesh.n_slopes(); ++edge)
-        for (unsigned int c = held.empty() || !held[edge] ? 1 : 0; c < 3; ++c)
+        for (unsigned int c = held.empty() || held[edge] == 0 ? 1 : 0; c < 3; ++c)
           all.push_back(3 * mesh.slope_node(edge) + c);
       std::sort(all.begin(), all.end());
       return all;

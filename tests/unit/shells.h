@@ -138,12 +138,12 @@ namespace Exemplar::Testing
   }
 
   /// Every n-th edge, from the first on.
-  inline std::vector<bool>
+  inline HeldTips
   every(const unsigned int n, const ShellMesh &mesh)
   {
-    std::vector<bool> held(mesh.edges().size(), false);
+    HeldTips held(mesh.edges().size(), 0);
     for (std::size_t edge = 0; edge < held.size(); edge += n)
-      held[edge] = true;
+      held[edge] = held_in_space;
     return held;
   }
 } // namespace Exemplar::Testing

@@ -39,8 +39,9 @@ namespace Exemplar
   /// An example pose.
   struct ExamplePose
   {
-    std::string name;      ///< the file or the formula that gives it, for messages
-    Vector      positions; ///< node positions by degree of freedom [m]
+    std::string name;          ///< the file or the formula that gives it, for messages
+    Vector      positions;     ///< node positions by degree of freedom [m]
+    bool finds_slopes = false; ///< of a shell, those of least bending energy for its material
   };
 
   /// The example poses of a body of cells and what they ask for there: the strains eta E_i at every quadrature
@@ -82,6 +83,13 @@ namespace Exemplar
     pose(const unsigned int i) const
     {
       return positions[i];
+    }
+
+    /// Whether the slopes of example i, of a shell, are those of least bending energy: they follow the material.
+    bool
+    finds_slopes(const unsigned int i) const
+    {
+      return finds_slopes_of[i];
     }
 
     /// The strains at the quadrature points: six numbers, as ExampleArrays has them.
@@ -213,6 +221,7 @@ namespace Exemplar
     const LawsOfCells        laws;
     double                   guard_bound = ExampleConstants().guard_bound;
     std::vector<Vector>      positions; ///< of the nodes in each example
+    std::vector<bool>        finds_slopes_of;
     const StrainRule         rule;
     const double             bending_importance;
     TargetBlock              strains;

@@ -26,14 +26,6 @@ namespace Exemplar
     ShellElasticity elasticity;
   };
 
-  /// A plane of symmetry of a shell: nodes that lie in it and stay there, and the axis that is normal to it. Normals between these
-  /// nodes are held, see ShellMesh::lay_director().
-  struct SymmetryPlane
-  {
-    std::vector<unsigned int> nodes;
-    unsigned int              axis;
-  };
-
   /// The finite element space FE_SimplexP(1)^3 or FE_SimplexP(2)^3 on a mesh of straight edges.
   /// Degree of freedom 3 i + c is component c of node i of its NodeNumbering. Linear elements have
   /// one quadrature point a cell, quadratic ones four; those of cell c are the points c
@@ -48,10 +40,7 @@ namespace Exemplar
 
     /// The space of a shell: linear triangles of these sections, with a quadrature point each, and the slopes of a plate
     /// behind the vertices, see NodeNumbering. It has no gradients of shape functions: what a shell resists, ShellStrains knows.
-    FESpace(const Mesh                       &mesh,
-            std::vector<ShellSection>         sections,
-            ShellKind                         kind,
-            const std::vector<SymmetryPlane> &planes = {});
+    FESpace(const Mesh &mesh, std::vector<ShellSection> sections, ShellKind kind);
 
     /// The triangles and edges of a shell; only for one.
     const ShellMesh &
@@ -97,17 +86,22 @@ namespace Exemplar
     std::vector<dealii::Point<3>>
     complete(std::vector<dealii::Point<3>> places, const std::string &key) const;
 
-    /// Positions with the tips of all normals of a shell, instead of the slopes of edges where these are not held. Angles are on
-    /// these branches, see ShellStrains::branches().
+    /// Positions of a shell with the tips of its normals where the bending energy is least. `elasticity` is that of a triangle.
+    Vector
+    with_tips_of_least_bending(
+        Vector positions, const std::function<ShellElasticity(unsigned int)> &elasticity) const;
+
+    /// Positions with the tips of all normals of a shell where they are in space, instead of the slopes of edges that are not held
+    /// and of tips that follow their edges. Angles are on these branches, see ShellStrains::branches().
     Vector
     with_tips(Vector                     positions,
-              const std::vector<bool>   &is_held,
+              const HeldTips            &held,
               const std::vector<double> &branches = {}) const;
 
-    /// Positions with slopes instead of the tips of normals, at edges where they are not held.
+    /// The inverse of with_tips(): positions with slopes, and slope nodes of tips that follow their edges, see TipFrame.
     Vector
     with_slopes(Vector                     positions,
-                const std::vector<bool>   &is_held,
+                const HeldTips            &held,
                 const std::vector<double> &branches = {}) const;
 
     /// The strains of a shell's triangles at positions with the tips of all normals.

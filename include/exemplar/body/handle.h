@@ -31,12 +31,32 @@ namespace Exemplar
     unsigned int first_slope
         = std::numeric_limits<unsigned int>::max(); ///< NodeNumbering::n_places()
 
-    /// The components of a node that are held: of slopes all.
+    /// A tip of a normal among `nodes` that follows its edge, and the edge's ends among them.
+    struct FollowingTip
+    {
+      std::size_t point, begin, end;
+      TipFrame    frame;
+    };
+
+    std::vector<FollowingTip> following_tips
+        = {}; ///< those of all slopes, if not all components are held
+
+    /// The components of a node that are prescribed: of slopes all.
     const std::vector<unsigned int> &
     components_of(const unsigned int node) const
     {
       static const std::vector<unsigned int> xyz{ 0, 1, 2 };
       return node < first_slope ? components : xyz;
+    }
+
+    /// Those that are held, by bits.
+    HeldComponents
+    held_components() const
+    {
+      HeldComponents held = 0;
+      for (const unsigned int c : components)
+        held |= 1U << c;
+      return held;
     }
 
     /// Nodes that are held now: all of them, or none.
@@ -52,12 +72,12 @@ namespace Exemplar
     /// Offsets of caught nodes from their prescribed motion; empty if none are caught.
     std::vector<dealii::Tensor<1, 3>> offsets = {};
 
-    /// Prescribed displacement of a node by path or formula, not by a function, as below.
+    /// Prescribed displacement of a node by path or formula, not by a function; of tips that follow their edges that in space.
     dealii::Tensor<1, 3>
     displacement(unsigned int point, const dealii::Point<3> &rest, double time) const;
 
     /// Prescribed displacements of `nodes`, whose positions at rest are `rest`, at time t [s],
-    /// without offsets. Throws SolverFailure if a program's function is not finite, and UserError
+    /// without offsets; of tips that follow their edges those of the slope nodes, see TipFrame. Throws SolverFailure if a program's function is not finite, and UserError
     /// if it does not give one displacement for each node.
     std::vector<dealii::Tensor<1, 3>>
     displacements(const std::vector<dealii::Point<3>> &rest, double time) const;

@@ -88,6 +88,8 @@ namespace Exemplar
       bool                      holds;
       std::vector<unsigned int> nodes, components;
       Motion                    function;
+
+      std::vector<Handle::FollowingTip> following_tips;
     };
 
     /// The state of each handle.
@@ -101,6 +103,10 @@ namespace Exemplar
     /// Held degrees of freedom 3 i + c, ascending and unique.
     std::vector<unsigned int>
     held_dofs() const;
+
+    /// The components in which handles hold the tips of a shell's normals now, by edge; empty without slopes.
+    HeldTips
+    held_tips() const;
 
     /// Let `motion` move a handle instead of its formulas. Throws UserError if no handle has this
     /// name.
@@ -171,9 +177,16 @@ namespace Exemplar
     void
     check_overlaps(const TimeAxis &axis);
 
-    /// move() where no program has set a motion, by every step, and so without allocation.
+    /// move() where no program has set a motion and no tip follows its edge, by every step, and so without allocation.
     void
     move_by_formulas(double time, dealii::Vector<double> &positions) const;
+
+    /// Set the positions of a handle's nodes; of tips that follow their edges only components that no other handle holds.
+    void
+    set_positions(const Handle                            &handle,
+                  const std::vector<dealii::Tensor<1, 3>> &displacements,
+                  const HeldTips                          &tips,
+                  dealii::Vector<double>                  &positions) const;
 
     /// Displacements of all handles at time t [s].
     Displacements

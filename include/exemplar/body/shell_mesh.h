@@ -29,8 +29,7 @@ namespace Exemplar
     std::array<unsigned int, 2> opposite  = { { none, none } };
     double                      length    = 0.; ///< [m]
     double                      angle     = 0.; ///< HingeAngle of its triangles; 0 at a border
-    Vector3<double>             normal
-        = {}; ///< of its director: unit bisector of the normals of its triangles, see lay_director()
+    Vector3<double> normal = {}; ///< of its director: unit bisector of the normals of its triangles
 
     bool
     is_border() const
@@ -119,11 +118,6 @@ namespace Exemplar
     {
       return vertices[i];
     }
-
-    /// Let the director of an edge lie in a plane, with a unit normal, in which the edge lies. A plane of symmetry that holds
-    /// slopes needs that: edges move in it, and a tip beside it would turn the director then. Strains at rest stay zero.
-    void
-    lay_director(unsigned int edge, const Vector3<double> &normal_of_plane);
 
     /// Where the tip of an edge's director is at rest: above its middle by its length, along its normal.
     Vector3<double>

@@ -2,8 +2,7 @@
 #ifndef exemplar_shell_strains_h
 #define exemplar_shell_strains_h
 
-#include <exemplar/body/shell_mesh.h>
-#include <exemplar/kernels/hinge_angle.h>
+#include <exemplar/body/tip_frame.h>
 
 #include <array>
 #include <functional>
@@ -28,6 +27,8 @@ namespace Exemplar
     double                      rest;  ///< the angle at rest
     unsigned int                owner; ///< a triangle all of whose hinges' nodes include these
     unsigned int edge, kind; ///< 0: of its two triangles; 1, 2: of one of these and the director
+    int          frame = -1; ///< of a director that follows its edge; -1: none
+    double       shift = 0.; ///< added to the angle, which is then that of the normal [rad]
   };
 
   /// How the turn of the normal at a triangle's edge follows from positions: of_hinge times the change of
@@ -51,7 +52,7 @@ namespace Exemplar
   /// The strains of a shell. Those of a plate are by Grinspun, Gingold, Reisman and Zorin (2006). The normal at the middle of
   /// an edge turns out of the bisector of its triangles. Degree of freedom 3 p of its slope node p is its length
   /// times that turn; but where the node is held, its place is that of the tip of the edge's director, which
-  /// the normal follows. Hinges (Froehlich and Botsch 2011) have no slopes: their strains are lengths and
+  /// the normal follows, see TipFrame. Hinges (Froehlich and Botsch 2011) have no slopes: their strains are lengths and
   /// angles, which is less for the eye, but not for a mesh that is refined: bending then depends on its pattern.
   class ShellStrains
   {
@@ -65,14 +66,33 @@ namespace Exemplar
       return mesh;
     }
 
-    /// Let these slope nodes be held, by edge.
+    /// Let these slope nodes be held.
     void
-    set_held(const std::vector<bool> &new_held);
+    set_held(const HeldTips &new_held);
 
     bool
     is_held(const unsigned int edge) const
     {
-      return held[edge];
+      return held[edge] != 0;
+    }
+
+    /// Whether directors follow their edges.
+    bool
+    has_frames() const
+    {
+      return !frames.empty();
+    }
+
+    /// Positions in which slope nodes of directors that follow their edges are the fourth nodes of hinges.
+    Vector
+    with_fourth_nodes(Vector positions) const;
+
+    /// The derivative of a hinge's angle with respect to its nodes, from that with respect to the four positions of HingeAngle.
+    HingeForm<double>
+    pulled_back(const unsigned int hinge, const HingeForm<double> &form) const
+    {
+      const int frame = hinges[hinge].frame;
+      return frame < 0 ? form : frames[frame].pulled_back(form);
     }
 
     const std::vector<ShellHinge> &
@@ -90,6 +110,13 @@ namespace Exemplar
 
     HingeAngle<double>
     hinge_angle(unsigned int hinge, const Vector &positions) const;
+
+    /// The derivative of the angle with respect to the hinge's nodes, and the second one.
+    HingeForm<double>
+    hinge_gradient(unsigned int hinge, const Vector &positions) const;
+
+    std::array<HingeProduct<double>, 4>
+    hinge_hessian(unsigned int hinge, const Vector &positions) const;
 
     /// The angle of a hinge less that at rest, on the branch nearest the last state.
     double
@@ -150,11 +177,22 @@ namespace Exemplar
     Vector3<double>
     tip(unsigned int edge, const Vector &positions) const;
 
+    /// The position of an edge's slope node from which it may be held as it is now, for the tip of its normal.
+    Vector3<double>
+    held_node(unsigned int edge, const Vector3<double> &tip, const Vector &positions) const;
+
     /// The slopes [m] of a plate of least bending energy for given places of the vertices, whatever is held; they are unique. `elasticity`
     /// is that of a triangle.
     std::vector<double>
     least_bending_slopes(const Vector                                       &positions,
                          const std::function<ShellElasticity(unsigned int)> &elasticity) const;
+
+    /// The chain rule for least_bending_slopes(), for a function with these derivatives with respect to the slopes [1/m]: a strain e
+    /// of each triangle. Where the stress of the pose's curvatures changes by T in a triangle, as its elasticity or thickness
+    /// changes, the function changes by -volume contract(T, e).
+    std::vector<ShellStrain>
+    adjoint_of_least_bending(const std::vector<double>                          &by_slopes,
+                             const std::function<ShellElasticity(unsigned int)> &elasticity) const;
 
     /// In bytes.
     std::size_t
@@ -179,8 +217,10 @@ namespace Exemplar
     angle_of_triangles(unsigned int edge, const Vector &positions) const;
 
     const ShellMesh                      &mesh;
-    std::vector<bool>                     held;
-    std::vector<std::array<double, 3>>    last_angles; ///< of each edge by ShellHinge::kind
+    HeldTips                              held;
+    std::vector<TipFrame>                 frames;        ///< of directors that follow their edges
+    std::vector<int>                      frame_of_edge; ///< -1: none
+    std::vector<std::array<double, 3>>    last_angles;   ///< of each edge by ShellHinge::kind
     std::vector<ShellHinge>               hinges;
     std::vector<std::array<ShellTurn, 3>> turns_of_triangles;
   };

@@ -18,12 +18,14 @@ namespace Exemplar
   constexpr unsigned int all_places = std::numeric_limits<unsigned int>::max();
 
   /// How many of the six rigid motions of each piece of the mesh the held degrees of freedom (3 i + c) leave free. Pieces
-  /// that are joined to the same one move as one, and have their number there; empty: none are.
+  /// that are joined to the same one move as one, and have their number there; empty: none are. Tips that follow their edges
+  /// only hold the turn about these; `tips` may be empty where none do.
   std::vector<unsigned int>
   n_free_rigid_motions(const Mesh                      &mesh,
                        const FESpace                   &fe_space,
                        const std::vector<unsigned int> &held_dofs,
-                       const std::vector<unsigned int> &joined = {});
+                       const std::vector<unsigned int> &joined = {},
+                       const HeldTips                  &tips   = {});
 
   /// Six degrees of freedom of one cell that hold a body against rigid motion and
   /// nothing else: three of its first node, two of the second, one of the third. Nodes are those of

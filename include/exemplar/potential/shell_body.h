@@ -30,7 +30,9 @@ namespace Exemplar
     ExampleWeights        &weights;
     const FreeDofs
         &free_dofs; ///< a slope node of which the first component is held is held as a whole
-    unsigned int n_threads = 1; ///< of the loops; no result depends on it
+    unsigned int    n_threads = 1; ///< of the loops; no result depends on it
+    const HeldTips *held_tips
+        = nullptr; ///< where slope nodes are held; null: all components of these are
   };
 
   /// The body of a shell: of each triangle the energy volume/2 (e - D):C:(e - D) of its six strains, in plane
@@ -257,6 +259,10 @@ namespace Exemplar
     template <typename Loop>
     void
     for_each_batch(std::size_t n, const Loop &loop) const;
+
+    /// Find the changes of hinges' angles and their derivatives.
+    void
+    find_hinges(const Vector &positions);
 
     /// Find hinges and strains.
     void

@@ -70,6 +70,22 @@ namespace Exemplar
     }
   } // namespace
 
+  namespace
+  {
+    /// Tips that follow their edges are prescribed by a handle relative to the displacements that it has for the middles of these.
+    void
+    add_middles_of_tips(const Problem &problem, Vector &of_held)
+    {
+      const NodeNumbering &nodes = problem.body.fe_space.numbering();
+      const HeldTips      &tips  = problem.constraints.held_tips;
+      for (unsigned int edge = 0; edge < tips.size(); ++edge)
+        for (unsigned int c = 0; c < 3 && follows_edge(tips[edge]); ++c)
+          if ((tips[edge] >> c & 1) == 0)
+            for (const unsigned int end : nodes.ends(nodes.n_places() + edge))
+              of_held[3 * end + c] -= 0.5 * of_held[3 * (nodes.n_places() + edge) + c];
+    }
+  } // namespace
+
   std::vector<unsigned int>
   weakly_active(const Problem &problem, const Evaluation &evaluation)
   {
@@ -95,8 +111,10 @@ namespace Exemplar
     difference -= by_positions;
     for (const unsigned int dof : problem.potential.get_free_dofs().list())
       difference[dof] = 0.;
+    add_middles_of_tips(problem, difference);
     return difference;
   }
+
   Gradients
   gradients_of(const Problem &problem, SlopeDerivatives slope)
   {

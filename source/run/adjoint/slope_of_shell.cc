@@ -2,6 +2,8 @@
 #include <exemplar/potential/shell_body.h>
 #include <exemplar/run/adjoint/slope_of_shell.h>
 
+#include <algorithm>
+
 namespace Exemplar
 {
   namespace
@@ -231,6 +233,55 @@ namespace Exemplar
     }
   }
 
+  namespace
+  {
+    /// The derivatives with respect to the slopes of a pose [1/m], from those with respect to the tips of its normals.
+    std::vector<double>
+    by_slopes_of(const ShellMesh &mesh, const Vector &pose, const Vector &by_pose)
+    {
+      std::vector<double> by_slopes;
+      for (unsigned int edge = 0; edge < mesh.n_slopes(); ++edge)
+      {
+        const unsigned int    node  = mesh.slope_node(edge);
+        const ShellEdge      &of    = mesh.edges()[edge];
+        const Vector3<double> begin = place_in(pose, of.begin), end = place_in(pose, of.end);
+        const Vector3<double> along = difference(end, begin),
+                              director
+                              = difference(place_in(pose, node), combine(0.5, begin, 0.5, end));
+        by_slopes.push_back(dot(place_in(by_pose, node), cross(along, director))
+                            / (norm(along) * of.length));
+      }
+      return by_slopes;
+    }
+
+    /// What the slopes of a pose give that are found for the material: those of least bending energy.
+    void
+    add_slopes_of_least_bending(const Problem    &problem,
+                                const Vector     &pose,
+                                const Vector     &by_pose,
+                                SlopeDerivatives &sums)
+    {
+      const FESpace  &fe_space = problem.body.fe_space;
+      const Material &material = problem.body.material;
+      const ShellKind kind     = fe_space.shell().kind();
+      const auto      elasticity
+          = [&](const unsigned int t) { return shell_elasticity(material, t, kind); };
+      const auto strains = fe_space.shell_strains(pose);
+      const auto adjoint = ShellStrains(fe_space.shell())
+                               .adjoint_of_least_bending(
+                                   by_slopes_of(fe_space.shell(), pose, by_pose), elasticity);
+      for (unsigned int t = 0; t < strains.size(); ++t)
+      {
+        ShellStrain curvature = strains[t];
+        std::fill_n(curvature.begin(), n_shell_strains / 2, 0.);
+        const ShellStrain of_poisson = stress_by_poisson(
+            material.youngs_modulus(t), material.of_body_alone(t).poissons_ratio, kind, curvature);
+        add_constants(problem, t, -fe_space.volume(t),
+                      { elasticity(t).stress(curvature), of_poisson, adjoint[t] }, sums);
+      }
+    }
+  } // namespace
+
   void
   carry_to_shell(const Problem &problem, SlopeDerivatives &sums)
   {
@@ -238,7 +289,7 @@ namespace Exemplar
     const ShellMesh    &mesh  = problem.body.fe_space.shell();
     ShellStrains        strains(mesh);
     if (mesh.n_slopes() > 0)
-      strains.set_held(std::vector<bool>(mesh.edges().size(), true));
+      strains.set_held(HeldTips(mesh.edges().size(), held_in_space));
     for (unsigned int i = poses.first_strained(); i < poses.size(); ++i)
     {
       std::vector<ShellStrain> stresses(mesh.triangles().size());
@@ -246,6 +297,8 @@ namespace Exemplar
         for (unsigned int k = 0; k < n_shell_strains; ++k)
           stresses[t][k] = importance_of(problem, t, k) * sums.by_strains[t * poses.size() + i][k];
       strains.add_pulled_back(poses.pose(i), stresses, sums.by_poses[i]);
+      if (poses.finds_slopes(i))
+        add_slopes_of_least_bending(problem, poses.pose(i), sums.by_poses[i], sums);
     }
     for (unsigned int t = 0; t < sums.by_thickness.size(); ++t)
       sums.by_thickness[t] /= mesh.triangles()[t].thickness;

@@ -231,8 +231,8 @@ namespace Exemplar
     const Mesh  &mesh      = problem.body.mesh;
     const bool   has_tips  = problem.body.fe_space.numbering().has_slopes();
     const Vector positions
-        = has_tips ? problem.body.fe_space.with_tips(problem.state.positions, problem.held_slopes(),
-                                                     problem.state.history)
+        = has_tips ? problem.body.fe_space.with_tips(
+              problem.state.positions, problem.constraints.held_tips, problem.state.history)
                    : whole(exchange, problem.state.positions);
     at_root(
         [&]

@@ -80,6 +80,16 @@ namespace Exemplar
                         + short_text(body.mesh.diameter()) + " large.");
       return held;
     }
+
+    /// The tips of normals that handles hold; none in an interpolation, in which handles hold nothing.
+    HeldTips
+    tips_of(const Handles &handles, const std::optional<StaticallyDeterminateSupport> &support)
+    {
+      HeldTips tips = handles.held_tips();
+      if (support)
+        std::fill(tips.begin(), tips.end(), HeldComponents(0));
+      return tips;
+    }
   } // namespace
 
   Constraints::Constraints(const SceneParameters &parameters,
@@ -95,7 +105,8 @@ namespace Exemplar
                 inputs.undivided.motions),
         support(inputs.fields.support),
         free_dofs(
-            body.fe_space.n_dofs(), held_dofs(parameters, body, handles, support), body.exchange())
+            body.fe_space.n_dofs(), held_dofs(parameters, body, handles, support), body.exchange()),
+        held_tips(tips_of(handles, support))
   {
     if (body.exchange().any(free_dofs.size() == 0))
       throw UserError(fmt::format(
@@ -156,12 +167,19 @@ namespace Exemplar
     handles.follow_time(axis.time(0));
   }
 
+  void
+  Constraints::follow_handles(const SceneParameters &parameters, const Body &body)
+  {
+    free_dofs.reinit(held_dofs(parameters, body, handles, support));
+    held_tips = tips_of(handles, support);
+  }
+
   bool
   Constraints::follow_time(const double time, const SceneParameters &parameters, const Body &body)
   {
     if (!handles.follow_time(time)) // the same in all processes
       return false;
-    free_dofs.reinit(held_dofs(parameters, body, handles, support));
+    follow_handles(parameters, body);
     return true;
   }
 
@@ -174,9 +192,8 @@ namespace Exemplar
     try
     {
       change(handles);
-      const std::vector<unsigned int> held = held_dofs(parameters, body, handles, support);
       check_rigid_motions(parameters, body);
-      free_dofs.reinit(held);
+      follow_handles(parameters, body);
     }
     catch (const UserError &)
     {
@@ -193,9 +210,10 @@ namespace Exemplar
     const bool has_obstacles = !parameters.obstacles.empty();
     if (has_obstacles && parameters.obstacles.free != FreeBodies::refused)
       return;
-    const auto free_of_pieces = n_free_rigid_motions(body.mesh, body.fe_space, handles.held_dofs(),
-                                                     body.ties.joined_pieces());
-    const auto loose          = std::max_element(free_of_pieces.begin(), free_of_pieces.end());
+    const auto free_of_pieces
+        = n_free_rigid_motions(body.mesh, body.fe_space, handles.held_dofs(),
+                               body.ties.joined_pieces(), handles.held_tips());
+    const auto         loose  = std::max_element(free_of_pieces.begin(), free_of_pieces.end());
     const unsigned int n_free = *loose;
     const std::string  of_piece
         = free_of_pieces.size() == 1

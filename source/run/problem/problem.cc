@@ -57,11 +57,11 @@ namespace Exemplar
   }
 
   Problem::Problem(const CompleteScene &scene, BodyInputs given, StepClock running_clock)
-      : parameters(scene), clock(std::move(running_clock)), time_axis(make_time_axis(parameters)),
-        body(parameters, given), constraints(parameters, body, time_axis, given),
+      : parameters(with_factor_beside_barriers(scene)), clock(std::move(running_clock)),
+        time_axis(make_time_axis(parameters)), body(parameters, given),
+        constraints(parameters, body, time_axis, given),
         examples(parameters, body, time_axis, given), actions(parameters, body, given),
-        elastic(make_elastic_body(
-            parameters, body, examples.poses, examples.weights, constraints.free_dofs)),
+        elastic(make_elastic_body(parameters, body, examples.poses, examples.weights, constraints)),
         potential(*elastic,
                   examples.weights,
                   constraints.free_dofs,
@@ -94,8 +94,7 @@ namespace Exemplar
     }
     if (parameters.scene == SceneKind::interpolation)
       start_interpolation(parameters.initial, examples.poses, state);
-    slopes_held.assign(body.fe_space.numbering().n_nodes() - body.fe_space.numbering().n_places(),
-                       true);
+    slopes_held.assign(constraints.held_tips.size(), held_in_space);
     follow_slopes();
     if (actions.body_contacts != nullptr)
       suit_body_contacts(*actions.body_contacts, *actions.contact_surface, body.fe_space,
@@ -103,6 +102,8 @@ namespace Exemplar
     if (actions.obstacles != nullptr)
     {
       check_obstacle_motions(*actions.obstacles, body, time_axis);
+      leave_room_for_shell(*actions.obstacles, parameters.obstacles, *actions.contact_surface,
+                           time_axis, actions.notes);
       suit_obstacles(*actions.obstacles, *actions.contact_surface, body, state.positions, 0.,
                      actions.notes);
     }

@@ -104,28 +104,18 @@ namespace Exemplar
     refresh(new_handles);
   }
 
-  std::vector<bool>
-  Problem::held_slopes() const
-  {
-    const NodeNumbering &nodes = body.fe_space.numbering();
-    std::vector<bool>    held;
-    for (unsigned int node = nodes.n_places(); node < nodes.n_nodes(); ++node)
-      held.push_back(constraints.free_dofs.free_index(3 * node) == FreeDofs::held);
-    return held;
-  }
-
   void
   Problem::hold_slopes_as_in(const unsigned int step)
   {
     if (constraints.follow_time(time_axis.time(step), parameters, body))
       refresh(new_handles);
-    slopes_held = held_slopes();
+    slopes_held = constraints.held_tips;
   }
 
   void
   Problem::follow_slopes()
   {
-    std::vector<bool> held = held_slopes();
+    const HeldTips &held = constraints.held_tips;
     if (held == slopes_held)
       return;
     const Vector tips
@@ -134,7 +124,7 @@ namespace Exemplar
     for (unsigned int dof = 3 * body.fe_space.numbering().n_places(); dof < state.velocities.size();
          ++dof)
       state.velocities[dof] = 0.; // slopes have no mass
-    slopes_held = std::move(held);
+    slopes_held = held;
   }
 
   void
@@ -336,6 +326,7 @@ namespace Exemplar
       actions.contact_surface = std::make_unique<ContactSurface>(body.mesh, body.fe_space);
     count_change("add_obstacle()");
     parameters.obstacles.named.push_back(obstacle);
+    parameters = with_factor_beside_barriers(std::move(parameters));
     if (actions.obstacles != nullptr)
     {
       actions.obstacles->all.push_back(std::move(added->all[0]));

@@ -124,33 +124,13 @@ namespace Exemplar
     }
   } // namespace
 
-  namespace
-  {
-    /// The planes in which handles hold slopes: those that hold one component.
-    std::vector<SymmetryPlane>
-    planes_of(const SceneParameters &parameters, const Mesh &mesh, const NamedNodes &named)
-    {
-      std::vector<SymmetryPlane> planes;
-      for (const HandleParameters &handle : parameters.handles)
-        if (const std::string component = trim(handle.components);
-            handle.holds_slopes() && component.size() == 1)
-          if (const std::size_t axis = std::string("xyz").find(component);
-              axis != std::string::npos)
-            planes.push_back(
-                { handle.select.nodes(mesh, "Handles/" + handle.name + "/Select", named),
-                  static_cast<unsigned int>(axis) });
-      return planes;
-    }
-  } // namespace
-
   Body::Body(const SceneParameters &parameters, BodyInputs &inputs)
       : mesh(std::move(inputs.mesh)),
         material(make_material(parameters.examples, std::move(inputs.fields.material))),
         fe_space(mesh.is_shell() ? FESpace(
                      mesh,
                      sections_of(inputs.fields.thicknesses, material, parameters.model.shell),
-                     parameters.model.shell,
-                     planes_of(parameters, mesh, inputs.fields.nodes))
+                     parameters.model.shell)
                                  : FESpace(mesh, parameters.model.element)),
         ties(make_ties(parameters, mesh, fe_space, inputs.fields.nodes)),
         patches(inputs.fields.patches, fe_space, material),
@@ -269,15 +249,15 @@ namespace Exemplar
                     const Body            &body,
                     const ExamplePoses    &poses,
                     ExampleWeights        &weights,
-                    const FreeDofs        &free_dofs)
+                    const Constraints     &constraints)
   {
     if (body.mesh.is_shell())
       return std::make_unique<ShellBody>(
           ShellParts{ body.fe_space.shell(), body.fe_space, body.material, poses,
                       poses.get_strains(), poses.get_volumes(), poses.get_dilatations(), weights,
-                      free_dofs, parameters.solver.n_threads });
+                      constraints.free_dofs, parameters.solver.n_threads, &constraints.held_tips });
     return std::make_unique<ElasticPotential>(
-        elastic_parts(parameters, body, poses, weights, free_dofs));
+        elastic_parts(parameters, body, poses, weights, constraints.free_dofs));
   }
 
   void

@@ -52,6 +52,12 @@ namespace Exemplar
                   + "/Slopes = held: a cache (Follow cache) says where vertices are, and nothing "
                     "of the normals between them. Set Slopes = free, and hold two rows of "
                     "vertices for a clamp." },
+            { is_shell && handle.slopes == "held" && model.shell == ShellKind::hinges,
+              "Handles/" + handle.name
+                  + "/Slopes = held: with Model/Shell = hinges a shell has no slopes, so that a "
+                    "plane of symmetry or a clamp would be a hinge. Set Model/Shell = plate, or "
+                    "set "
+                    "Slopes = auto and hold two rows of vertices for a clamp." },
             { !is_shell && handle.slopes != HandleParameters().slopes,
               "Handles/" + handle.name
                   + "/Slopes is of shells. Set Mesh/Kind = shell, or remove it." } });

@@ -182,5 +182,141 @@ namespace Exemplar::Testing
       }
       EXPECT_NEAR(strains.slopes(x)[5], slopes[5], 0.);
     }
+
+    constexpr HeldComponents x_held = 1, y_held = 2, z_held = 4;
+
+    /// A curved patch, and its edges in the plane y = 0, of which these components of tips are held.
+    struct InPlane
+    {
+      explicit InPlane(const HeldComponents components)
+          : mesh(rectangle(
+              4,
+              3,
+              [](const double x, const double y) {
+                return Place{ { x, 0.5 * y, 0.1 * std::cos(1.5 * x) * std::cos(0.3 * y) } };
+              },
+              0.05)),
+            held(mesh.edges().size(), 0), strains(mesh)
+      {
+        for (unsigned int edge = 0; edge < held.size(); ++edge)
+          if (std::abs(mesh.vertex(mesh.edges()[edge].begin)[1]) < 1e-9
+              && std::abs(mesh.vertex(mesh.edges()[edge].end)[1]) < 1e-9)
+            held[edge] = components;
+        strains.set_held(held);
+      }
+
+      /// At rest, with the vertices moved by a function and the slope nodes as they are.
+      Vector
+      moved(const std::function<Place(const Place &)> &motion) const
+      {
+        Vector positions = rest_positions(strains);
+        for (unsigned int node = 0; node < mesh.n_vertices(); ++node)
+        {
+          const Place x = motion(mesh.vertex(node));
+          for (int c = 0; c < 3; ++c)
+            positions[3 * node + c] = x[c];
+        }
+        return positions;
+      }
+
+      ShellMesh    mesh;
+      HeldTips     held;
+      ShellStrains strains;
+    };
+
+    TEST(ShellStrains, LetTipsFollowTheirEdgesInComponentsThatAreFree)
+    {
+      for (const HeldComponents held :
+           { y_held, HeldComponents(y_held | z_held), HeldComponents(x_held | y_held) })
+      {
+        const InPlane                  shell(held);
+        const std::vector<ShellStrain> none(shell.mesh.triangles().size(), ShellStrain{});
+        const auto                     far = [&](const Place &x)
+        {
+          return combine(1., x, 1.,
+                         Place{ { held & x_held ? 0. : 30., 0., held & z_held ? 0. : -50. } });
+        };
+        expect_near(shell.strains.strains(shell.moved(far)), none, 1e-13);
+      }
+    }
+
+    TEST(ShellStrains, StayInAPlaneOfSymmetryHoweverEdgesTurn)
+    {
+      InPlane                        shell(y_held);
+      const std::vector<ShellStrain> none(shell.mesh.triangles().size(), ShellStrain{});
+      for (double angle = 0.25; angle < 6.5; angle += 0.25)
+      {
+        const Vector turned = shell.moved(
+            [&](const Place &x)
+            {
+              return Place{ { std::cos(angle) * x[0] - std::sin(angle) * x[2], x[1],
+                              std::sin(angle) * x[0] + std::cos(angle) * x[2] } };
+            });
+        expect_near(shell.strains.strains(turned), none, 1e-14);
+        shell.strains.update_branches(turned);
+      }
+    }
+
+    TEST(ShellStrains, HaveDerivativesWhereTipsFollowTheirEdges)
+    {
+      for (const HeldComponents held : { y_held, HeldComponents(y_held | z_held) })
+      {
+        const InPlane            shell(held);
+        const Vector             at = disturbed(shell.strains, 0.03);
+        std::vector<ShellStrain> stresses(shell.mesh.triangles().size());
+        for (std::size_t t = 0; t < stresses.size(); ++t)
+          for (int k = 0; k < 6; ++k)
+            stresses[t][k] = std::sin(1. + 6. * static_cast<double>(t) + k);
+        Vector gradient(at.size());
+        shell.strains.add_pulled_back(at, stresses, gradient);
+        const auto product = [&](const Vector &x)
+        {
+          double     sum   = 0.;
+          const auto found = shell.strains.strains(x);
+          for (std::size_t t = 0; t < found.size(); ++t)
+            sum += contract(stresses[t], found[t]);
+          return sum;
+        };
+        constexpr double h = 1e-6;
+        for (unsigned int dof = 0; dof < at.size(); ++dof)
+        {
+          Vector after = at, before = at;
+          after[dof] += h;
+          before[dof] -= h;
+          EXPECT_NEAR((product(after) - product(before)) / (2. * h), gradient[dof], 1e-8);
+        }
+      }
+    }
+
+    TEST(ShellStrains, HaveTheChainRuleOfLeastBendingSlopes)
+    {
+      const ShellMesh mesh = bumpy_patch();
+      ShellStrains    strains(mesh);
+      Vector          x          = disturbed(strains, 0.05);
+      double          changed    = 0.; // of one triangle's mu
+      const auto      elasticity = [&](const unsigned int t) {
+        return ShellElasticity{ 0.6, 1. + t + (t == 3 ? changed : 0.) };
+      };
+      const auto slopes = [&](const double change)
+      {
+        changed = change;
+        return strains.least_bending_slopes(x, elasticity);
+      };
+      const auto          up = slopes(1e-5), down = slopes(-1e-5), at = slopes(0.);
+      std::vector<double> by_slopes;
+      double              quotient = 0.;
+      for (std::size_t edge = 0; edge < at.size(); ++edge)
+      {
+        by_slopes.push_back(std::cos(static_cast<double>(edge)));
+        quotient += by_slopes[edge] * (up[edge] - down[edge]) / 2e-5;
+        x[3 * mesh.slope_node(edge)] = at[edge];
+      }
+      ShellStrain curvature = strains.strains(x)[3];
+      curvature[0] = curvature[1] = curvature[2] = 0.;
+      const ShellStrain adjoint = strains.adjoint_of_least_bending(by_slopes, elasticity)[3];
+      EXPECT_NEAR(-mesh.triangles()[3].volume()
+                      * contract(ShellElasticity{ 0., 1. }.stress(curvature), adjoint),
+                  quotient, 1e-8 * std::abs(quotient));
+    }
   } // namespace
 } // namespace Exemplar::Testing

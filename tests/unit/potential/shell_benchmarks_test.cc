@@ -19,19 +19,16 @@ namespace Exemplar::Testing
       return std::abs(x - place) < rounding_of_place * (1. + std::abs(place));
     }
 
-    /// The edges both of whose ends are in one of these planes of symmetry, in which directors are laid.
-    std::vector<bool>
-    edges_in(ShellMesh &mesh, const std::vector<std::pair<Marks, Place>> &planes)
+    /// The edges both of whose ends are in one of these planes of symmetry across an axis.
+    HeldTips
+    edges_in(const ShellMesh &mesh, const std::vector<std::pair<Marks, unsigned int>> &planes)
     {
-      std::vector<bool> held(mesh.edges().size(), false);
+      HeldTips held(mesh.edges().size(), 0);
       for (unsigned int edge = 0; edge < held.size(); ++edge)
-        for (const auto &[marks, normal] : planes)
+        for (const auto &[marks, axis] : planes)
           if (marks(mesh.vertex(mesh.edges()[edge].begin))
               && marks(mesh.vertex(mesh.edges()[edge].end)))
-          {
-            held[edge] = true;
-            mesh.lay_director(edge, normal);
-          }
+            held[edge] = 1U << axis;
       return held;
     }
 
@@ -81,16 +78,15 @@ namespace Exemplar::Testing
     double
     scordelis_lo(const unsigned int n)
     {
-      const double angle           = 40. * std::acos(-1.) / 180.;
-      ShellMesh    mesh            = cylinder(n, 25., angle, 25., 0.25);
-      const Marks  top             = [](const Place &x) { return is_at(x[0], 0.); },
-                  middle           = [](const Place &x) { return is_at(x[1], 25.); },
-                  diaphragm        = [](const Place &x) { return is_at(x[1], 0.); };
-      const std::vector<bool> held = edges_in(
-          mesh, { { top, Place{ { 1., 0., 0. } } }, { middle, Place{ { 0., 1., 0. } } } });
-      ShellScene scene(
-          mesh, {}, held,
-          components(mesh, { { top, { 0 } }, { middle, { 1 } }, { diaphragm, { 0, 2 } } }), 0.);
+      const double    angle = 40. * std::acos(-1.) / 180.;
+      const ShellMesh mesh  = cylinder(n, 25., angle, 25., 0.25);
+      const Marks     top   = [](const Place &x) { return is_at(x[0], 0.); },
+                  middle    = [](const Place &x) { return is_at(x[1], 25.); },
+                  diaphragm = [](const Place &x) { return is_at(x[1], 0.); };
+      const HeldTips held   = edges_in(mesh, { { top, 0 }, { middle, 1 } });
+      ShellScene     scene(
+              mesh, {}, held,
+              components(mesh, { { top, { 0 } }, { middle, { 1 } }, { diaphragm, { 0, 2 } } }), 0.);
       Vector load(3 * mesh.n_nodes());
       for (const ShellTriangle &triangle : mesh.triangles())
         for (const unsigned int node : triangle.nodes)
@@ -101,19 +97,17 @@ namespace Exemplar::Testing
     double
     pinched_cylinder(const unsigned int n)
     {
-      ShellMesh   mesh             = cylinder(n, 300., std::acos(-1.) / 2., 300., 3.);
-      const Marks top              = [](const Place &x) { return is_at(x[0], 0.); },
-                  side             = [](const Place &x) { return std::abs(x[2]) < 1e-6; },
-                  diaphragm        = [](const Place &x) { return is_at(x[1], 0.); },
-                  middle           = [](const Place &x) { return is_at(x[1], 300.); };
-      const std::vector<bool> held = edges_in(mesh, { { top, Place{ { 1., 0., 0. } } },
-                                                      { side, Place{ { 0., 0., 1. } } },
-                                                      { middle, Place{ { 0., 1., 0. } } } });
-      ShellScene              scene(
-                       mesh, {}, held,
-                       components(
-                           mesh,
-                           { { top, { 0 } }, { side, { 2 } }, { middle, { 1 } }, { diaphragm, { 0, 2 } } }));
+      const ShellMesh mesh  = cylinder(n, 300., std::acos(-1.) / 2., 300., 3.);
+      const Marks     top   = [](const Place &x) { return is_at(x[0], 0.); },
+                  side      = [](const Place &x) { return std::abs(x[2]) < 1e-6; },
+                  diaphragm = [](const Place &x) { return is_at(x[1], 0.); },
+                  middle    = [](const Place &x) { return is_at(x[1], 300.); };
+      const HeldTips held   = edges_in(mesh, { { top, 0 }, { side, 2 }, { middle, 1 } });
+      ShellScene     scene(
+              mesh, {}, held,
+              components(
+                  mesh,
+                  { { top, { 0 } }, { side, { 2 } }, { middle, { 1 } }, { diaphragm, { 0, 2 } } }));
       Vector             load(3 * mesh.n_nodes());
       const unsigned int loaded = 3 * (n * (n + 1)) + 2; // at the top in the middle
       load[loaded]              = -0.25 * ShellScene::E / 3e6;
@@ -183,8 +177,10 @@ namespace Exemplar::Testing
             return Place{ { x, width * y, 0. } };
           },
              t);
-      const Marks             clamp = [](const Place &x) { return is_at(x[0], 0.); };
-      const std::vector<bool> held  = edges_in(mesh, { { clamp, Place{ { 1., 0., 0. } } } });
+      const Marks clamp = [](const Place &x) { return is_at(x[0], 0.); };
+      HeldTips    held  = edges_in(mesh, { { clamp, 0 } });
+      for (HeldComponents &tip : held)
+        tip = tip != 0 ? held_in_space : 0;
       ShellScene scene(mesh, {}, held, components(mesh, { { clamp, { 0, 1, 2 } } }), 0.);
       Vector     x = rest_positions(scene.body->get_strains());
       const std::pair<double, double> published[]

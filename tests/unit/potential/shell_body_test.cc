@@ -32,7 +32,7 @@ namespace Exemplar::Testing
         return Place{ { x[0], std::cos(x[0]) * x[1], x[2] + std::sin(x[0]) * x[1] } };
       };
       return ShellScene(mesh, { disturbed(strains, 0.03), disturbed(strains, 0.01, bend) },
-                        kind == ShellKind::plate ? every(3, mesh) : std::vector<bool>(),
+                        kind == ShellKind::plate ? every(3, mesh) : HeldTips(),
                         { 0, 1, 2, 10, 30, 31 }, ShellScene::nu, of.volume_stiffness);
     }
 
@@ -381,12 +381,12 @@ namespace Exemplar::Testing
             return Place{ { x, y, 0. } };
           },
           t, alternating, kind);
-      std::vector<bool>         held(mesh.edges().size(), false);
+      HeldTips                  held(mesh.edges().size(), 0);
       std::vector<unsigned int> border;
       for (unsigned int edge = 0; edge < mesh.edges().size(); ++edge)
         if (mesh.edges()[edge].is_border())
         {
-          held[edge] = clamped;
+          held[edge] = clamped ? held_in_space : 0;
           for (unsigned int c = 0; c < 3; ++c)
             border.push_back(3 * mesh.edges()[edge].begin + c); // each vertex there begins one
         }

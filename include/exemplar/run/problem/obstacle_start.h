@@ -11,6 +11,19 @@ namespace Exemplar
   void
   check_obstacle_motions(const Obstacles &obstacles, const Body &body, const TimeAxis &axis);
 
+  /// Where two obstacles are nearer to each other than a shell's thickness and two automatic distances from which obstacles push,
+  /// choose a smaller distance, of which `notes` tell: a shell that is pushed from both sides wherever it is moves in tiny steps.
+  void
+  leave_room_for_shell(Obstacles                 &obstacles,
+                       const ObstaclesParameters &parameters,
+                       const ContactSurface      &surface,
+                       const TimeAxis            &axis,
+                       std::vector<std::string>  &notes);
+
+  /// The scene with a factor instead of multigrid for a shell beside obstacles, with a warning if that was another choice.
+  CompleteScene
+  with_factor_beside_barriers(CompleteScene scene);
+
   /// Let the obstacles suit a body that begins at these positions and at this time [s]: what touches it is set back, of which `notes` tell,
   /// and pairs that begin nearer than the distance from which obstacles push keep their own. Throws UserError for a body
   /// that begins inside of one. All processes must call this.

@@ -160,10 +160,6 @@ namespace Exemplar
       return *of_cells;
     }
 
-    /// By edges of a shell, whether the slope is held; empty without slopes.
-    std::vector<bool>
-    held_slopes() const;
-
     /// Whether some cell's law has a trait; those of a shell have none.
     template <typename Trait>
     bool
@@ -331,7 +327,7 @@ namespace Exemplar
     require_loads();
 
     Changes                        changes;
-    std::vector<bool>              slopes_held; ///< held_slopes() as the state has them
+    HeldTips                       slopes_held; ///< Constraints::held_tips as the state has them
     State                          spare;   ///< memory of a step's end, with the one before in it
     std::unique_ptr<Laboratory>    lab;     ///< null until it is used
     std::unique_ptr<SessionPlayer> session; ///< null unless the scene has one

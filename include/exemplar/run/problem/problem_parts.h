@@ -105,8 +105,14 @@ namespace Exemplar
     Handles                                           handles;
     const std::optional<StaticallyDeterminateSupport> support; ///< if an interpolation
     FreeDofs                                          free_dofs;
+    HeldTips
+        held_tips; ///< of the normals of a shell with slopes, as free_dofs has them; else empty
 
   private:
+    /// Set free_dofs and held_tips. Throws UserError, with nothing changed, if nothing is free.
+    void
+    follow_handles(const SceneParameters &parameters, const Body &body);
+
     void
     check_rigid_motions(const SceneParameters &parameters, const Body &body) const;
   };
@@ -143,7 +149,7 @@ namespace Exemplar
                     const Body            &body,
                     const ExamplePoses    &poses,
                     ExampleWeights        &weights,
-                    const FreeDofs        &free_dofs);
+                    const Constraints     &constraints);
 
   /// Makes a user-defined term. Called for each potential: that of the steps, and that of a
   /// Laboratory, which copies the state of the term by PotentialTerm::save() and load().
