@@ -46,8 +46,7 @@ namespace Exemplar
   ObstacleTerm::energy_flow(const State &start, const State &end) const
   {
     EnergyFlow flow;
-    flow.lost
-        = energy_of_friction(end.positions) + (springs ? springs->lost_energy(end.positions) : 0.);
+    flow.lost = energy_of_friction(end.positions);
     if (!obstacles.move_between(start.time, end.time))
       return flow;
     const auto at_end = pushes(end.positions);

@@ -57,7 +57,7 @@ namespace Exemplar
   {
     double energy = 0.;
     for (const Rubbing &at : rubbing_step().rubbing)
-      energy += slip_energy(at).value(slip(at, positions).norm());
+      energy += slip_energy(at).value(slip(at, positions).vector.norm());
     return energy;
   }
 

@@ -110,15 +110,16 @@ namespace Exemplar
     }
   }
 
-  double
-  WeakSprings::lost_energy(const Vector &positions) const
+  std::optional<EnergyFlow>
+  WeakSprings::energy_flow(const State & /*start*/, const State &end) const
   {
-    double energy = 0.;
+    EnergyFlow flow;
     if (kind == FreeBodies::friction && in_step)
       for (const ContactSurface::Node &node : surface.nodes)
-        energy += 0.5 * stiffness(node)
-                  * (at_node(positions, node.node) - at_node(anchors, node.node)).norm_square();
-    return energy;
+        flow.lost
+            += 0.5 * stiffness(node)
+               * (at_node(end.positions, node.node) - at_node(anchors, node.node)).norm_square();
+    return flow;
   }
 
   void

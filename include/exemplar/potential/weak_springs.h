@@ -84,9 +84,9 @@ namespace Exemplar
                 std::vector<double> &values,
                 std::vector<double> &columns) override;
 
-    /// The part of their energy that is lost where the next step begins, whose springs have other anchors [J].
-    double
-    lost_energy(const Vector &positions) const;
+    /// Springs that hold until friction does lose their energy, because the next step has other anchors.
+    std::optional<EnergyFlow>
+    energy_flow(const State &start, const State &end) const override;
 
     void
     add_response(const TermPoint &at,

@@ -33,9 +33,8 @@ namespace Exemplar
   void
   SessionPlayer::apply(const SessionEvent &event)
   {
-    check_form(event, problem.body.mesh.n_nodes(), title_of(event, file));
-    problem.restart_audit("the session");
     check_form(event, problem.body.fe_space, title_of(event, file));
+    problem.restart_audit("the session");
     const std::vector<double> &numbers = event.numbers;
     if (const auto constants = constants_of(event))
       problem.set_material(*constants);

@@ -29,7 +29,9 @@ namespace Exemplar
     const auto   gap   = narrowest_gap(obstacles.all, times, thickness, 2. * usual + thickness);
     if (!gap)
       return;
-    obstacles.width = std::max(0.5 * (gap->size - thickness), least_part * usual);
+    for (double &width : obstacles.widths.of_pieces)
+      width = std::min(width, std::max(0.5 * (gap->size - thickness), least_part * width));
+    obstacles.width = obstacles.widths.greatest();
     notes.push_back(fmt::format(
         "Obstacles/{} and Obstacles/{} are {} m apart, and the shell is up to {} m thick: so that "
         "it "
