@@ -8,6 +8,7 @@
 #include <exemplar/program/interrupt.h>
 #include <exemplar/program/joint_run.h>
 #include <exemplar/program/run_log.h>
+#include <exemplar/program/taken_examples.h>
 #include <exemplar/run/inputs/shared_body.h>
 #include <exemplar/run/output/run_directory.h>
 #include <exemplar/run/output/run_writer.h>
@@ -112,8 +113,12 @@ namespace Exemplar
     }
 
     void
-    run_steps(
-        Problem &problem, RunWriter &writer, RunLog &log, Progress &progress, StateReview &review)
+    run_steps(Problem       &problem,
+              RunWriter     &writer,
+              RunLog        &log,
+              Progress      &progress,
+              StateReview   &review,
+              TakenExamples &taken)
     {
       while (problem.state.step < problem.time_axis.n_steps())
       {
@@ -126,17 +131,22 @@ namespace Exemplar
           end_with_failure(problem, report, writer, log);
         StepClock::Scope scope(problem.clock, Phase::output);
         review.add_step(report);
+        taken.add_step();
         progress.update(problem.state.step, progress_text(report));
       }
     }
 
     void
-    run_to_end(
-        Problem &problem, RunWriter &writer, RunLog &log, Progress &progress, StateReview &review)
+    run_to_end(Problem       &problem,
+               RunWriter     &writer,
+               RunLog        &log,
+               Progress      &progress,
+               StateReview   &review,
+               TakenExamples &taken)
     {
       try
       {
-        run_steps(problem, writer, log, progress, review);
+        run_steps(problem, writer, log, progress, review, taken);
       }
       catch (const Interrupted &)
       {
@@ -189,16 +199,17 @@ namespace Exemplar
         out << iteration_text(*problem, report) << std::flush;
       return !problem->body.exchange().any(is_interrupted());
     };
-    StateReview review(*problem);
+    StateReview   review(*problem);
+    TakenExamples taken(*problem);
     try
     {
-      run_to_end(*problem, writer, log, progress, review);
+      run_to_end(*problem, writer, log, progress, review, taken);
     }
     catch (const UserError &error) // after writing files it is no refusal
     {
       throw std::runtime_error(error.what());
     }
-    log.say(closing_text(*problem, writer));
+    log.say(closing_text(*problem, writer) + taken.text());
   }
 
   void
