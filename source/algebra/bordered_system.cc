@@ -176,7 +176,7 @@ namespace Exemplar
               G.begin() + i * n, G.begin() + (i + 1) * n, inverse_columns.begin(), 0.));
         schur = make_schur_complement(form, G, inverse_columns.data() + n, n, exchange);
         const WeightQpSolution solution
-            = minimize_over_weights(schur, right_side, vector.multipliers, limits);
+            = minimize_over_weights(form, schur, right_side, vector.multipliers, limits);
         if (!solution.found)
           throw SolverFailure("The system for the example weights is not positive definite. Set "
                               "Examples/Weight penalty to auto, or remove an example that is a "

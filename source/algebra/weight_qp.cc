@@ -400,4 +400,21 @@ namespace Exemplar
       return PairedProgram(H, c, limits, start).solve();
     return ActiveSet(H, c, sums, limits, start).solve();
   }
+
+  WeightQpSolution
+  minimize_over_weights(const WeightForm                 &form,
+                        const dealii::FullMatrix<double> &schur,
+                        const std::vector<double>        &c,
+                        const std::vector<double>        &sums,
+                        const WeightLimits               &limits,
+                        const std::vector<double>        &start)
+  {
+    WeightQpSolution solution = minimize_over_weights(schur, c, sums, limits, start);
+    if (solution.found || form.convexity.empty())
+      return solution;
+    dealii::FullMatrix<double> convex = schur;
+    for (std::size_t i = 0; i < form.convexity.size(); ++i)
+      convex(i, i) += form.convexity[i];
+    return minimize_over_weights(convex, c, sums, limits, start);
+  }
 } // namespace Exemplar

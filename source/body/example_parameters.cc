@@ -123,6 +123,14 @@ namespace Exemplar
              "the same for all, or one such list a region, in ascending order of material "
              "ids, separated by |.",
              "; ");
+    keys.add_file(
+        "Weights file", weights_file,
+        "A table of prescribed weights in CSV, instead of Prescribed weights: lines of t [s] and "
+        "one "
+        "weight per example, in their order, with or without a first line of names. Without a "
+        "column "
+        "of the rest pose, its weight is 1 minus the others. Linear between lines, constant "
+        "before the first and after the last; the same in all regions.");
     keys.add(
         "Yield", yield,
         "How much energy [J/m^3] it costs to change simplex or additive weights: a step adds Y_i "
@@ -147,12 +155,12 @@ namespace Exemplar
         "a tail and a head, are found and have weights of their own (statistics: weight_R_i for "
         "example i in region R, from 1, as the log and summary.json describe them); none: what "
         "Weights per region or Weight maps say.");
-    keys.add(
-        "Region blend length", region_blend_length,
-        "Distance [m] over which the weights of neighbouring regions pass into each "
-        "other; 0: at once, at the border, and with Regions = auto over a quarter of the cube root of "
-        "the smallest one's volume. Below the size of a cell: over about a cell.",
-        Bounds{ 0. });
+    keys.add("Region blend length", region_blend_length,
+             "Distance [m] over which the weights of neighbouring regions pass into each "
+             "other; 0: at once, at the border, and with Regions = auto over a quarter of the cube "
+             "root of "
+             "the smallest one's volume. Below the size of a cell: over about a cell.",
+             Bounds{ 0. });
     keys.add_files("Weight maps", weight_maps,
                    "Painted regions with weights of their own: a list of FILE.ply:ATTRIBUTE or "
                    "FILE.csv[:COLUMN], each with values from 0 to 1 for the vertices of "
@@ -250,7 +258,11 @@ namespace Exemplar
       throw UserError(
           "Examples/Weight penalty = '" + weight_penalty
           + "' is not allowed. Allowed: auto, paper, weak or a number not less than 0 [J].");
-    if (weights == WeightRule::prescribed && in_use() && prescribed_weights.empty())
+    if (!weights_file.empty() && !prescribed_weights.empty())
+      throw UserError("Examples/Prescribed weights and Examples/Weights file are both given. "
+                      "Remove one of them.");
+    if (weights == WeightRule::prescribed && in_use() && prescribed_weights.empty()
+        && weights_file.empty())
       throw UserError(
           n_examples() == 1
               ? "Examples/Prescribed weights is empty, and there is one example: its weight would "
@@ -259,7 +271,7 @@ namespace Exemplar
                 "Examples/Prescribed weights = 1-t; t."
               : "Examples/Weights = prescribed, but Examples/Prescribed weights is empty. Give one "
                 "function "
-                "of t for each example, for instance '1-t; t'.");
+                "of t for each example, for instance '1-t; t', or set Examples/Weights file.");
     for (const std::string &map : weight_maps)
       split_map_name(map, "Examples/Weight maps");
     if (!weight_maps.empty() && weights_per_region)
@@ -273,8 +285,10 @@ namespace Exemplar
     if (region_blend_length > 0. && !weights_per_region && regions == RegionsOfExamples::none)
       throw UserError("Examples/Region blend length is given, but Examples/Weights per region is "
                       "false and Examples/Regions is none. Set one of them, or remove the length.");
-    if (weights != WeightRule::prescribed && !prescribed_weights.empty())
-      throw UserError("Examples/Prescribed weights is given, but Examples/Weights is not "
-                      "'prescribed'. Set it, or remove the weights.");
+    const std::string given = prescribed_weights.empty() ? "Weights file" : "Prescribed weights";
+    if (weights != WeightRule::prescribed && !(prescribed_weights.empty() && weights_file.empty()))
+      throw UserError("Examples/" + given
+                      + " is given, but Examples/Weights is not "
+                        "'prescribed'. Set it, or remove the weights.");
   }
 } // namespace Exemplar

@@ -4,7 +4,9 @@
 #include <exemplar/algebra/long_vectors.h>
 #include <exemplar/algebra/weight_qp.h>
 #include <exemplar/base/errors.h>
+#include <exemplar/base/message_text.h>
 #include <exemplar/base/number_text.h>
+#include <exemplar/body/dependent_poses.h>
 #include <exemplar/body/example_weights.h>
 #include <exemplar/prm/assignments.h>
 
@@ -86,7 +88,8 @@ namespace Exemplar
   ExampleWeights::ExampleWeights(const ExampleParameters &parameters,
                                  const ExampleTargets    &targets,
                                  const double             unit_energy,
-                                 const TimeAxis          &axis)
+                                 const TimeAxis          &axis,
+                                 WeightTable              of_file)
       : targets(targets), bounded(parameters.are_bounded()),
         additive(parameters.weights == WeightRule::additive),
         parts_of_ridge(parts_in_found_regions(parameters, targets)),
@@ -94,8 +97,11 @@ namespace Exemplar
   {
     if (parameters.weights == WeightRule::prescribed && size() > 0)
     {
-      read_prescribed(parameters.prescribed_weights);
-      check_prescribed(axis);
+      table = std::move(of_file);
+      if (table.empty())
+        read_prescribed(parameters.prescribed_weights);
+      for (unsigned int step = 0; step <= axis.n_steps(); ++step)
+        check_sums(axis.time(step));
     }
     set_parameters(parameters, unit_energy);
   }
@@ -106,6 +112,7 @@ namespace Exemplar
     if (are_prescribed() || size() == 0)
       return;
     warnings.clear();
+    find_preferences(unit_energy);
     compute_form(parameters, unit_energy);
     check_independence(unit_energy, parameters.ridge(unit_energy) > 0.);
   }
@@ -166,6 +173,7 @@ namespace Exemplar
       penalty(weight, weight) = sigma * fraction[weight / targets.size()] * part_of_ridge(weight);
     if (parameters.energy != ExampleEnergy::scaled)
       targets.add_blended(blended_part(parameters.energy), penalty);
+    add_preferences(unit_energy);
     form.H = penalty;
     form.H.add(1., targets.gram());
     for (unsigned int weight = 0; weight < n; ++weight)
@@ -175,6 +183,34 @@ namespace Exemplar
       if (targets.is_strained(weight))
         form.coupled.push_back(weight);
     }
+  }
+
+  void
+  ExampleWeights::find_preferences(const double unit_energy)
+  {
+    preference_form.reinit(0, 0);
+    if (!bounded || !(unit_energy > 0.))
+      return;
+    const bool has_rest = additive || targets.first_strained() > 0;
+    const auto found    = find_dependent_poses(targets, has_rest);
+    preference_form     = preference_of(found, targets, has_rest, unit_energy);
+    for (const DependentPoses &poses : found)
+      warnings.push_back(describe(poses, targets, has_rest));
+  }
+
+  void
+  ExampleWeights::add_preferences(const double unit_energy)
+  {
+    form.convexity.assign(preference_form.m(), 0.);
+    for (unsigned int v = 0; v < preference_form.m(); ++v)
+      for (unsigned int w = 0; w < preference_form.n(); ++w)
+      {
+        const double entry
+            = unit_energy * targets.fractions()[v / targets.size()] * preference_form(v, w);
+        penalty(v, w) += entry;
+        if (v != w)
+          form.convexity[v] += std::max(entry, 0.);
+      }
   }
 
   void
@@ -217,22 +253,32 @@ namespace Exemplar
             names_of_examples(targets)));
       prescribed.emplace_back(key, list, "t", targets.size());
     }
+    formulas = lists;
+  }
+
+  std::string
+  ExampleWeights::remedy_for_sum(const std::string &list) const
+  {
+    std::vector<std::string> terms    = split_trimmed(list, ';');
+    const bool               has_rest = targets.first_strained() > 0;
+    terms.erase(has_rest ? terms.begin() : terms.end() - 1);
+    return fmt::format("Make the {} 1 minus the others: 1 - ({})",
+                       has_rest ? "first one, that of the rest pose," : "last one",
+                       joined(terms, ") - ("));
   }
 
   void
-  ExampleWeights::check_prescribed(const TimeAxis &axis) const
+  ExampleWeights::check_sums(const double time) const
   {
-    for (unsigned int step = 0; step <= axis.n_steps(); ++step)
-      for (const Expression &expression : prescribed)
-      {
-        const double time   = axis.time(step);
-        const auto   values = expression.values(dealii::Point<3>(), time);
-        const double sum    = std::accumulate(values.begin(), values.end(), 0.);
-        if (std::abs(sum - 1.) > 1e-10)
-          throw UserError("Examples/Prescribed weights sum to " + shortest_text(sum)
-                          + " at t = " + shortest_text(time)
-                          + ", not to 1. Make the last one 1 minus the others.");
-      }
+    for (unsigned int list = 0; list < prescribed.size(); ++list)
+    {
+      const auto   values = prescribed[list].values(dealii::Point<3>(), time);
+      const double sum    = std::accumulate(values.begin(), values.end(), 0.);
+      if (std::abs(sum - 1.) > 1e-10)
+        throw UserError(fmt::format(
+            "Examples/Prescribed weights = '{}' sum to {} at t = {}, not to 1. {}.", formulas[list],
+            shortest_text(sum), shortest_text(time), remedy_for_sum(formulas[list])));
+    }
   }
 
   std::vector<double>
@@ -242,7 +288,9 @@ namespace Exemplar
     for (unsigned int region = 0; region < n_regions(); ++region)
     {
       const auto values
-          = prescribed[prescribed.size() == 1 ? 0 : region].values(dealii::Point<3>(), time);
+          = table.empty()
+                ? prescribed[prescribed.size() == 1 ? 0 : region].values(dealii::Point<3>(), time)
+                : table.at(time);
       all.insert(all.end(), values.begin(), values.end());
     }
     return all;
@@ -377,6 +425,8 @@ namespace Exemplar
     const MinPivot least = min_pivot(differences, of_rounding);
     if (differences.m() == 0 || least.ratio > 1e-8)
       return;
+    if (has_ridge && !preference_form.empty())
+      return; // of which there is a warning
     const unsigned int example = second(least.row) % k;
     const auto         region  = targets.region_id(second(least.row) / k);
     const std::string  where   = region && !are_found ? fmt::format(" in region {}", *region) : "";

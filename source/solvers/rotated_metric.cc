@@ -97,7 +97,7 @@ namespace Exemplar
     for (std::size_t j = 0; j < form->coupled.size(); ++j)
       c[form->coupled[j]] += free_dofs.exchange().sum(dot(forces, &Z[j * n]));
     const std::vector<double> none(c.size(), 0.), sums(form->N.m(), 0.);
-    const WeightQpSolution    change = minimize_over_weights(schur, c, sums, limits, none);
+    const WeightQpSolution    change = minimize_over_weights(*form, schur, c, sums, limits, none);
     return change.found ? change.weights : none;
   }
 

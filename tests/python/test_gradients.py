@@ -156,7 +156,7 @@ def converged_difference(function, at, direction, steps=(1.6e-3, 4e-4, 1e-4, 2.5
     return min(zip(found, found[1:]), key=lambda pair: abs(pair[0] - pair[1]))[1]
 
 
-class Differences(unittest.TestCase):
+class GradientTest(unittest.TestCase):
     def check(self, base, **of_case):
         case = Case(base, **of_case)
         self.assertEqual(case.found["weakly_active"], [])
@@ -171,6 +171,8 @@ class Differences(unittest.TestCase):
                 self.assertLess(abs(found - expected), 1e-6 * abs(expected), (found, expected))
         return case
 
+
+class Differences(GradientTest):
     def test_all_rules_of_weights(self):
         rules = {"simplex": {"Weights": "simplex"}, "free": {"Weights": "free"},
                  "prescribed": {"Weights": "prescribed", "Prescribed weights": "0.1; 0.2; 0.3; 0.4"},
@@ -333,6 +335,23 @@ class Answers(unittest.TestCase):
             exemplar.Problem(SCENE, mesh=MESH, poses=POSES).vjp(BY_POSITIONS)
         with self.assertRaisesRegex(TypeError, "vjp is called"):
             solved(SCENE).vjp()
+
+
+class WeaklyDetermined(GradientTest):
+    """Poses that cancel, whose weights a penalty determines."""
+
+    def test_dependent_poses(self):
+        bends = [0.02 * np.stack([0 * X, a * X * X, b * X * X], axis=1) for a, b in ((0, 1), (0.9, -0.5), (-0.9, -0.5))]
+        poses = [NODES + bend for bend in bends]
+        for rule, energy in (("simplex", "mixed"), ("additive", "scaled")):
+            with self.subTest(rule):
+                base = scene(Examples={"Weights": rule, "Energy": energy})
+                problem = exemplar.Problem(base, mesh=MESH, poses=poses)
+                self.assertTrue([warning for warning in problem.warnings if "a combination of their strains is" in warning])
+                targets = lambda nodes: nodes + 0.3 * ((bends[0] + 0.4 * bends[1]) if len(nodes) == len(NODES) else 0)
+                case = self.check(base, poses=poses, targets_of=targets)
+                strained = case.problem.weights[1 if rule == "simplex" else 0:]
+                self.assertGreater(np.count_nonzero((strained > 0) & (strained < 1)), 1)
 
 
 if __name__ == "__main__":

@@ -20,6 +20,10 @@ namespace Exemplar
     dealii::FullMatrix<double> H;       ///< k x k
     dealii::FullMatrix<double> N;       ///< m x k
     std::vector<unsigned int>  coupled; ///< weights with a non-zero column of G, ascending
+
+    /// Summands of the diagonal of H for a step in directions along which H less what positions follow is not convex;
+    /// empty: none.
+    std::vector<double> convexity;
   };
 
   /// A vector of the bordered system: a right side or a solution, in three parts.

@@ -2,6 +2,7 @@
 #ifndef exemplar_weight_qp_h
 #define exemplar_weight_qp_h
 
+#include <exemplar/algebra/bordered_system.h>
 #include <exemplar/algebra/weight_limits.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -31,6 +32,16 @@ namespace Exemplar
   /// weight and what it lacks to its bound are then a group of two.
   WeightQpSolution
   minimize_over_weights(const dealii::FullMatrix<double> &H,
+                        const std::vector<double>        &c,
+                        const std::vector<double>        &sums,
+                        const WeightLimits               &limits,
+                        const std::vector<double>        &start = {});
+
+  /// minimize_over_weights() with the Schur complement of a form; with the form's convexity in addition if that is not
+  /// positive definite where it must be.
+  WeightQpSolution
+  minimize_over_weights(const WeightForm                 &form,
+                        const dealii::FullMatrix<double> &schur,
                         const std::vector<double>        &c,
                         const std::vector<double>        &sums,
                         const WeightLimits               &limits,

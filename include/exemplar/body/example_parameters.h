@@ -84,6 +84,7 @@ namespace Exemplar
     std::string              poisson_ratio; ///< Example Poisson ratio; empty: the material's
     WeightRule               weights = WeightRule::simplex;
     std::string              prescribed_weights;
+    std::string              weights_file; ///< of prescribed weights; empty: Prescribed weights
     double                   yield               = 0.; ///< [J/m^3]
     double                   creep_viscosity     = 0.; ///< [J s/m^3]
     bool                     weights_per_region  = false;

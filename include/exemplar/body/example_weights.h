@@ -7,6 +7,7 @@
 #include <exemplar/body/example_targets.h>
 #include <exemplar/body/time_axis.h>
 #include <exemplar/body/weight_memory.h>
+#include <exemplar/body/weight_table.h>
 #include <exemplar/prm/expression.h>
 
 #include <string>
@@ -33,13 +34,14 @@ namespace Exemplar
   class ExampleWeights
   {
   public:
-    /// `unit_energy` is sum E V over the cells [J]. Throws UserError for prescribed weights that do
-    /// not sum to one in every step, and for weights without penalty if the examples are affinely
+    /// `unit_energy` is sum E V over the cells [J]. Prescribed weights are formulas unless there is a `table`.
+    /// Throws UserError for prescribed weights that do not sum to one in every step, and for weights without penalty if the examples are affinely
     /// dependent.
     ExampleWeights(const ExampleParameters &parameters,
                    const ExampleTargets    &targets,
                    double                   unit_energy,
-                   const TimeAxis          &axis);
+                   const TimeAxis          &axis,
+                   WeightTable              table = {});
 
     unsigned int
     size() const
@@ -122,12 +124,23 @@ namespace Exemplar
     bool
     are_prescribed() const
     {
-      return !prescribed.empty();
+      return !prescribed.empty() || !table.empty();
     }
 
     /// Prescribed weights at time t.
     std::vector<double>
     at(double time) const;
+
+    /// Throws UserError for prescribed weights that do not sum to one at time t.
+    void
+    check_sums(double time) const;
+
+    /// The table of prescribed weights; empty: formulas.
+    const WeightTable &
+    get_table() const
+    {
+      return table;
+    }
 
     /// The weights at time t: prescribed or held values, or else `weights`.
     std::vector<double>
@@ -151,8 +164,8 @@ namespace Exemplar
       return form;
     }
 
-    /// The Hessian of the energy that depends on the weights alone: the ridge and p eta (1 - eta)
-    /// sum V E_i : C : E_j [J], where p is the blended part of the energy. For unknown weights
+    /// The Hessian of the energy that depends on the weights alone: the ridge, the penalties of preferences(), and
+    /// p eta (1 - eta) sum V E_i : C : E_j [J], where p is the blended part of the energy. For unknown weights
     /// only.
     const dealii::FullMatrix<double> &
     penalty_matrix() const
@@ -166,6 +179,14 @@ namespace Exemplar
     part_of_ridge(const unsigned int weight) const
     {
       return parts_of_ridge.empty() ? 1. : parts_of_ridge[weight];
+    }
+
+    /// Coefficients of the penalties along combinations of strains that nearly vanish, over the unit energy times the volume
+    /// fraction of their region; empty without such combinations.
+    const dealii::FullMatrix<double> &
+    preferences() const
+    {
+      return preference_form;
     }
 
     /// The minimiser of w^T H w / 2 - c^T w under bounds and sums, from `start` near it. Throws
@@ -217,11 +238,20 @@ namespace Exemplar
     void
     compute_form(const ExampleParameters &parameters, double unit_energy);
 
+    /// Find the combinations of strains that nearly vanish, with a warning of each, and the penalties along them.
+    void
+    find_preferences(double unit_energy);
+
+    /// Add the penalties along these combinations to `penalty`.
+    void
+    add_preferences(double unit_energy);
+
     void
     read_prescribed(const std::string &text);
 
-    void
-    check_prescribed(const TimeAxis &axis) const;
+    /// The remedy for a list of formulas whose sum is not one.
+    std::string
+    remedy_for_sum(const std::string &list) const;
 
     /// Warns of affinely dependent examples; throws UserError where no ridge makes their weights
     /// unique.
@@ -234,9 +264,13 @@ namespace Exemplar
     WeightMemory               memory;
     WeightForm                 form;
     dealii::FullMatrix<double> penalty;
-    std::vector<Expression>    prescribed; ///< one for all regions, or one a region
-    std::vector<double>        held;       ///< weights of hold(); empty: free
-    std::vector<std::string>   warnings;
+    dealii::FullMatrix<double> preference_form; ///< see preferences()
+    WeightTable                table; ///< of prescribed weights in all regions; empty: formulas
+    std::vector<std::string>
+        formulas; ///< of prescribed weights: one list for all regions, or one per region
+    std::vector<Expression>  prescribed; ///< of these
+    std::vector<double>      held;       ///< weights of hold(); empty: free
+    std::vector<std::string> warnings;
   };
 } // namespace Exemplar
 

@@ -48,19 +48,29 @@ namespace Exemplar
   {
     if (problem.examples.weights.n_unknown() == 0)
       return;
-    const FESpace           &fe_space   = problem.body.fe_space;
-    const Material          &material   = problem.body.material;
-    const ExamplePoses      &poses      = problem.examples.poses;
-    const ExampleParameters &parameters = problem.parameters.examples;
-    const double             total      = fe_space.total_volume();
-    const double             sigma = parameters.ridge(unit_energy_of_examples(fe_space, material));
-    const double             by_unit     = parameters.ridge(1.) - parameters.ridge(0.);
-    const std::vector<double> &fractions = poses.fractions();
-    const std::vector<double> &w = problem.state.weights, &b = direction.weights;
-    const WeightMemory        &memory = problem.examples.weights.get_memory();
+    const FESpace                    &fe_space   = problem.body.fe_space;
+    const Material                   &material   = problem.body.material;
+    const ExamplePoses               &poses      = problem.examples.poses;
+    const ExampleParameters          &parameters = problem.parameters.examples;
+    const double                      total      = fe_space.total_volume();
+    const double                      by_unit    = parameters.ridge(1.) - parameters.ridge(0.);
+    const std::vector<double>        &fractions  = poses.fractions();
+    const std::vector<double>        &w = problem.state.weights, &b = direction.weights;
+    const WeightMemory               &memory      = problem.examples.weights.get_memory();
+    const dealii::FullMatrix<double> &preferences = problem.examples.weights.preferences();
+    const double unit = unit_energy_of_examples(fe_space, material), sigma = parameters.ridge(unit);
     std::vector<double> products(fractions.size(), 0.); // w.b of each region, by parts of the ridge
-    std::vector<double> prices(fractions.size(), 0.);   // of moving along b, per volume
-    double              mean = 0.;
+    std::vector<double> preferred(fractions.size(), 0.); // likewise by preferences
+    std::vector<double> prices(fractions.size(), 0.);    // of moving along b, per volume
+    double              mean = 0., mean_preferred = 0.;
+    for (unsigned int v = 0; v < preferences.m(); ++v)
+      for (unsigned int weight = 0; weight < preferences.n(); ++weight)
+      {
+        const unsigned int region = v / poses.size();
+        sums.by_weights[v] += unit * fractions[region] * preferences(v, weight) * b[weight];
+        preferred[region] += w[v] * preferences(v, weight) * b[weight];
+        mean_preferred += fractions[region] * w[v] * preferences(v, weight) * b[weight];
+      }
     for (unsigned int weight = 0; weight < poses.n_weights(); ++weight)
     {
       const unsigned int region   = weight / poses.size();
@@ -76,18 +86,21 @@ namespace Exemplar
     {
       const unsigned int cell   = fe_space.cell_of(point);
       const double       volume = fe_space.volume(point);
-      double             here = 0., price = 0.;
+      double             here = 0., here_preferred = 0., price = 0.;
       poses.get_strains().get_shares().for_each(point,
                                                 [&](const unsigned int region, const double share)
                                                 {
                                                   here += share * products[region];
+                                                  here_preferred += share * preferred[region];
                                                   price += share * prices[region];
                                                 });
       if (!material.elasticity_of_examples().youngs_modulus)
-        sums.by_young[cell] += by_unit * volume * mean;
-      sums.add_by_volume(cell, volume
-                                   * (by_unit * material.youngs_modulus_of_examples(cell) * mean
-                                      + sigma * (here - mean) / total + price));
+        sums.by_young[cell] += volume * (by_unit * mean + mean_preferred);
+      sums.add_by_volume(
+          cell, volume
+                    * ((by_unit * mean + mean_preferred) * material.youngs_modulus_of_examples(cell)
+                       + (sigma * (here - mean) + unit * (here_preferred - mean_preferred)) / total
+                       + price));
     }
   }
 

@@ -100,6 +100,7 @@ namespace Exemplar
       fields.poses     = std::move(inputs.poses);
       fields.nodes     = choose_nodes(scene, mesh, named);
       fields.obstacles = std::move(inputs.obstacles);
+      fields.weights   = std::move(inputs.weights);
       for (auto &[name, surface] : fields.obstacles)
         scale(surface, scene.mesh.scale);
       if (scene.scene == SceneKind::interpolation && mesh.n_pieces() > 1)

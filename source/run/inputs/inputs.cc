@@ -61,6 +61,11 @@ namespace Exemplar
             under_key("Mesh/Files",
                       [&] { require_file(file, "a mesh (" + mesh_extensions + ")"); });
         for_each_pose([this](const std::string &file) { check(file); });
+        if (scene.examples.in_use() && !scene.examples.weights_file.empty()
+            && inputs.weights.empty())
+          inputs.weights = under_key(
+              "Examples/Weights file",
+              [this] { return read_weight_table(scene.examples.weights_file, scene.examples); });
         if (scene.needs_surface())
           add_surface();
         if (inputs.carried.empty())

@@ -66,6 +66,7 @@ namespace Exemplar
       for (const auto &[text, nodes] : whole.nodes)
         own.nodes[text] = places_among(vertices, nodes);
       own.obstacles = whole.obstacles;
+      own.weights   = whole.weights;
       own.support   = whole.support;
       return own;
     }

@@ -179,8 +179,11 @@ namespace Exemplar
               body.patches,
               inputs.fields.poses,
               inputs.fields.shares),
-        weights(
-            parameters.examples, poses, unit_energy_of_examples(body.fe_space, body.material), axis)
+        weights(parameters.examples,
+                poses,
+                unit_energy_of_examples(body.fe_space, body.material),
+                axis,
+                inputs.fields.weights)
   {
   }
 

@@ -144,22 +144,53 @@ namespace Exemplar
       const ExampleWeights &weights = problem.examples.weights;
       if (!weights.are_prescribed())
         return {};
+      const bool         of_file      = !weights.get_table().empty();
+      bool               extrapolates = false;
       double             minimum = 0., maximum = 1.;
       const unsigned int n_looks = std::min(problem.time_axis.n_steps(), 100u);
       for (unsigned int look = 0; look <= n_looks; ++look)
       {
         const auto step
             = static_cast<unsigned int>(std::size_t(look) * problem.time_axis.n_steps() / n_looks);
-        const auto values = weights.at(problem.time_axis.time(step));
-        minimum           = std::min(minimum, *std::min_element(values.begin(), values.end()));
-        maximum           = std::max(maximum, *std::max_element(values.begin(), values.end()));
+        const std::vector<double> values = weights.at(problem.time_axis.time(step));
+        minimum = std::min(minimum, *std::min_element(values.begin(), values.end()));
+        maximum = std::max(maximum, *std::max_element(values.begin(), values.end()));
+        for (unsigned int weight = 0; weight < values.size(); ++weight)
+          if (problem.examples.poses.is_strained(
+                  weight)) // the rest pose asks for nothing, whatever its weight
+            extrapolates = extrapolates || values[weight] < -0.01 || values[weight] > 1.01;
       }
-      if (minimum > -0.01 && maximum < 1.01)
+      if (!extrapolates)
         return {};
-      return "Examples/Prescribed weights go from " + short_text(minimum) + " to "
-             + short_text(maximum)
-             + ": beyond 0 and 1 the examples are extrapolated. If t is to go further, bound them, "
-               "as by min(t, 1).";
+      return fmt::format(
+          "Examples/{} go{} from {} to {}: beyond 0 and 1 the examples are extrapolated. {}",
+          of_file ? "Weights file" : "Prescribed weights", of_file ? "es" : "", short_text(minimum),
+          short_text(maximum),
+          of_file ? "Bound the values of the file if that is not intended."
+                  : "If t is to go further, bound them, as by min(t, 1).");
+    }
+
+    /// Warn of times of a table of weights that the scene does not reach, but for a dynamic scene that ends before.
+    Warning
+    review_weight_table(const Problem &problem)
+    {
+      const std::vector<double> &times = problem.examples.weights.get_table().times;
+      if (times.size() < 2)
+        return {};
+      const std::string key = "Examples/Weights file";
+      const double      end = end_of_scene(problem);
+      if (times.front() >= end)
+        return fmt::format("{} begins at t = {}, and the scene ends at t = {}: its first weights "
+                           "are taken all the time. "
+                           "Change its times or the scene's.",
+                           key, short_text(times.front()), short_text(end));
+      if (problem.parameters.scene == SceneKind::dynamic || times.back() <= end * (1. + 1e-6))
+        return {};
+      return fmt::format("{} goes to t = {}, but t of a scene that is not dynamic ends at 1. "
+                         "Divide its times by {}, or "
+                         "set Scene = dynamic and Time/End = {}.",
+                         key, short_text(times.back()), shortest_text(times.back()),
+                         shortest_text(times.back()));
     }
 
     /// Warn of motions in components that are not held, which have no effect.
@@ -244,7 +275,8 @@ namespace Exemplar
             review_mass_damping(problem),        review_tolerance(problem),
             review_prescribed_weights(problem),  review_lone_example(problem),
             review_box(problem.parameters.mesh), review_extremes(problem),
-            review_initial_pose(problem),        review_surface(problem.parameters.mesh) };
+            review_initial_pose(problem),        review_surface(problem.parameters.mesh),
+            review_weight_table(problem) };
     for (const HandleParameters &handle : problem.parameters.handles)
       found.push_back(review_components(handle));
     std::vector<std::string> warnings;

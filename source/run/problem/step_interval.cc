@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace Exemplar
 {
@@ -91,12 +90,6 @@ namespace Exemplar
     if (!weights.are_prescribed()
         || (is_on_axis(problem) && step.end == problem.time_axis.time(problem.state.step + 1)))
       return;
-    const std::vector<double> all = weights.at(step.end);
-    for (auto first = all.begin(); first != all.end(); first += weights.n_per_region())
-      if (const double sum = std::accumulate(first, first + weights.n_per_region(), 0.);
-          std::abs(sum - 1.) > 1e-10)
-        throw UserError("Examples/Prescribed weights sum to " + shortest_text(sum)
-                        + " at t = " + shortest_text(step.end)
-                        + ", not to 1. Make the last one 1 minus the others.");
+    weights.check_sums(step.end);
   }
 } // namespace Exemplar

@@ -317,7 +317,8 @@ namespace Exemplar
   {
     std::vector<std::filesystem::path> files;
     for (const DeclaredKey &key : get_keys())
-      if ((key.path() != "Examples/Poses" && key.path() != "Examples/Weight maps")
+      if ((key.path() != "Examples/Poses" && key.path() != "Examples/Weight maps"
+           && key.path() != "Examples/Weights file")
           || parameters.examples.in_use())
         append_files(key, files); // with importance 0 they need not exist
     return files;

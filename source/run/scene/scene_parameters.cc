@@ -40,7 +40,8 @@ namespace Exemplar
                  "Examples/Weights = additive. Remove that, or choose Scene = static." } });
       examples.importance = 1.;
       examples.weights    = WeightRule::prescribed;
-      if (examples.prescribed_weights.empty() && examples.n_examples() == 2)
+      if (examples.prescribed_weights.empty() && examples.weights_file.empty()
+          && examples.n_examples() == 2)
         examples.prescribed_weights = "1-t; t"; // from the first to the second
       // there are no squeezing loads, and cells may be rotated by more than 540 degrees
       if (model.dilatation == DilatationKind::automatic)

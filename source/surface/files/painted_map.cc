@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/base/csv_file.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/base/message_text.h>
-#include <exemplar/base/missing_file.h>
 #include <exemplar/base/nearest_word.h>
 #include <exemplar/base/number_text.h>
-#include <exemplar/base/text_file.h>
 #include <exemplar/surface/files/painted_map.h>
 #include <exemplar/surface/files/surface_formats.h>
 #include <exemplar/surface/files/surface_scanner.h>
@@ -14,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace Exemplar
 {
@@ -24,30 +22,6 @@ namespace Exemplar
 
     const char *const table_remedy
         = " Write a line 'vertex,NAME' and then, for each vertex, its number from 1 and its value.";
-
-    Cells
-    cells_of(const std::string &line)
-    {
-      Cells             cells;
-      std::stringstream in(line);
-      for (std::string cell; std::getline(in, cell, ',');)
-      {
-        const auto begin = cell.find_first_not_of(" \t\r\""),
-                   end   = cell.find_last_not_of(" \t\r\"");
-        cells.push_back(begin < cell.size() ? cell.substr(begin, end - begin + 1) : "");
-      }
-      if (!line.empty() && line.back() == ',')
-        cells.emplace_back();
-      return cells;
-    }
-
-    bool
-    is_number(const std::string &cell)
-    {
-      char *end = nullptr;
-      std::strtod(cell.c_str(), &end);
-      return !cell.empty() && end == cell.c_str() + cell.size();
-    }
 
     /// Reads a table of values of vertices.
     class TableReader
@@ -60,22 +34,10 @@ namespace Exemplar
           : name(file.string()), column(column), surface_name(surface_name),
             values(n_vertices, std::nan(""))
       {
-        std::string reason;
-        const auto  bytes = read_text_file(file, &reason);
-        if (!bytes)
-          throw UserError(name + ": cannot be opened (" + reason + "). Give the path of a map."
-                          + missing_file_remedy(name));
-        if (bytes->compare(0, 2, "\xFF\xFE") == 0 || bytes->compare(0, 2, "\xFE\xFF") == 0)
-          throw UserError(name + ": the map is saved as UTF-16. Save it as UTF-8.");
-        std::stringstream in(*bytes);
-        std::string       text;
-        while (std::getline(in, text))
+        for (const CsvLine &each : read_csv_file(file, "map"))
         {
-          if (line == 0 && text.compare(0, 3, "\xEF\xBB\xBF") == 0)
-            text.erase(0, 3); // byte order mark of UTF-8
-          ++line;
-          if (text.find_first_not_of(" \t\r") < text.size() && text[0] != '#')
-            read_line(cells_of(text));
+          line = each.number;
+          read_line(each.cells);
         }
         if (n_rows == 0)
           throw UserError(name + ": the map has no values." + table_remedy);
@@ -102,7 +64,6 @@ namespace Exemplar
       {
         if (width == 0)
         {
-          refuse_other_separators(cells);
           width                = cells.size();
           const bool has_names = !std::all_of(cells.begin(), cells.end(), is_number);
           find_columns(has_names ? cells : Cells());
@@ -123,18 +84,6 @@ namespace Exemplar
           values[vertex] = parse_number(cell);
         }
         ++n_rows;
-      }
-
-      /// Refuses ; and tabs, by which spreadsheets separate cells where the comma is the decimal
-      /// sign.
-      void
-      refuse_other_separators(const Cells &cells) const
-      {
-        for (const std::string &cell : cells)
-          if (cell.find_first_of(";\t") < cell.size())
-            fail(
-                "the cells are separated by semicolons or tabs. Separate them by commas, and write "
-                "numbers with a point.");
       }
 
       std::size_t

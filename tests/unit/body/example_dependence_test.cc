@@ -11,10 +11,11 @@ namespace Exemplar::Testing
   namespace
   {
     std::vector<std::string>
-    warnings(const std::string &poses)
+    warnings(const std::string &poses, const WeightRule rule = WeightRule::simplex)
     {
       ExampleParameters parameters;
       parameters.pose_functions = poses;
+      parameters.weights        = rule;
       return Body().examples(parameters).get_warnings();
     }
 
@@ -29,7 +30,7 @@ namespace Exemplar::Testing
       const std::string stretch = "1.1*x; y; z | ";
       for (const std::string last : { "1.1*x; y; z", "1.3*x; y; z", "x; y; z" })
       {
-        const auto all     = warnings(twist(30.) + " | " + stretch + last);
+        const auto all     = warnings(twist(30.) + " | " + stretch + last, WeightRule::free);
         const bool is_rest = last == "x; y; z"; // which is said first
         ASSERT_EQ(all.size(), is_rest ? 2u : 1u) << last;
         if (is_rest)
@@ -56,7 +57,7 @@ namespace Exemplar::Testing
     {
       // strains 0.1 e_xx and 0.1 e_xx + d e_zz: to first order in d the scaled Gram matrix
       // [1, c; c, 1] has the condition number (1 + c)/(1 - c)
-      const auto all = warnings("1.1*x; y; z | 1.1*x; y; 1.000001*z");
+      const auto all = warnings("1.1*x; y; z | 1.1*x; y; 1.000001*z", WeightRule::free);
       ASSERT_EQ(all.size(), 1u);
       EXPECT_NE(all[0].find("nearly an affine combination"), std::string::npos) << all[0];
       const double number = std::stod(all[0].substr(all[0].find("condition number ") + 17));

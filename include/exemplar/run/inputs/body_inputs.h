@@ -26,6 +26,7 @@ namespace Exemplar
     NamedPoses                       poses;
     NamedNodes                       nodes;     ///< of all selections, by their texts
     ObstacleSurfaces                 obstacles; ///< [m]; all of them in each process
+    WeightTable                      weights;   ///< of Examples/Weights file
     /// Support of an interpolation; its nodes are those of the whole body.
     std::optional<StaticallyDeterminateSupport> support;
 
@@ -33,9 +34,9 @@ namespace Exemplar
     void
     serialize(Archive &archive, unsigned int /*version*/)
     {
-      archive &material &patches &shares &poses &nodes &obstacles;
-      bool                                              has_support = support.has_value();
-      archive                                          &has_support;
+      archive &material &patches &shares &poses &nodes &obstacles &weights;
+      bool     has_support = support.has_value();
+      archive &has_support;
       if (has_support && !support)
         support.emplace();
       if (has_support)

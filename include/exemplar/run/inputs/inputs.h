@@ -2,6 +2,7 @@
 #ifndef exemplar_inputs_h
 #define exemplar_inputs_h
 
+#include <exemplar/body/weight_table.h>
 #include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/obstacles/obstacle.h>
 #include <exemplar/run/inputs/surface_inputs.h>
@@ -38,6 +39,7 @@ namespace Exemplar
     /// surface.
     std::map<std::string, std::shared_ptr<const PointCache>> caches    = {};
     ObstacleSurfaces                                         obstacles = {};
+    WeightTable weights = {}; ///< of Examples/Weights file
     /// Report on meshes and poses made of surfaces; null if none were.
     std::shared_ptr<const MadeOfSurfaces> made = {};
     /// Walls around gmsh's geometry, see MshFile::geo_walls.
