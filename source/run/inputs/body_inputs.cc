@@ -5,6 +5,7 @@
 #include <exemplar/mesh/mesh_checks.h>
 #include <exemplar/mesh/mesh_edges.h>
 #include <exemplar/run/inputs/body_inputs.h>
+#include <exemplar/run/inputs/bridging_cells.h>
 #include <exemplar/run/inputs/surface_readings.h>
 #include <exemplar/run/scene/scene_parameters.h>
 
@@ -77,6 +78,23 @@ namespace Exemplar
           frame[c] *= factor;
     }
 
+    /// Multiply the painted Young's modulus by the factors of cells that bridge what a pose separates.
+    void
+    soften_bridging_cells(const ExampleParameters &examples,
+                          const Mesh              &mesh,
+                          const NamedPoses        &poses,
+                          SurfaceReadings         &readings)
+    {
+      const BridgingCells bridging = find_bridging_cells(examples, mesh, poses);
+      if (bridging.factors.empty())
+        return;
+      std::vector<double> &painted = readings.material.youngs_modulus.values;
+      painted.resize(bridging.factors.size(), 1.); // factors, where nothing is painted
+      for (std::size_t cell = 0; cell < painted.size(); ++cell)
+        painted[cell] *= bridging.factors[cell];
+      readings.warnings.push_back(bridging.warning);
+    }
+
     /// Fields of the whole body, with the readings off the surface, to whose warnings more are added. Moves the poses out
     /// of the inputs.
     BodyFields
@@ -88,6 +106,7 @@ namespace Exemplar
       NamedNodes named = inputs.nodes;
       named.insert(readings.nodes.begin(), readings.nodes.end());
       BodyFields fields;
+      soften_bridging_cells(scene.examples, mesh, inputs.poses, readings);
       if (mesh.is_shell())
         fields.thicknesses = thicknesses_of(scene.material, mesh, readings.material.thickness);
       fields.material = Material(
