@@ -8,11 +8,10 @@ from exemplar_runner import SceneTest, greatest_distance, has_trilinos, nodes_of
 from mpirun import launch
 
 
-def arc(curvature, along="z"):
+def arc(curvature):
     """The beam of 1 m bent to an arc, its middle line as long as before."""
-    k, u = curvature, f"({along}-.05)"
-    bent = f"(1-cos({k}*x))/({k})+.05+{u}*cos({k}*x)"
-    return f"sin({k}*x)/({k})-{u}*sin({k}*x); " + (f"y; {bent}" if along == "z" else f"{bent}; z")
+    k = curvature
+    return f"sin({k}*x)/({k})-z*sin({k}*x); y; (1-cos({k}*x))/({k})+z*cos({k}*x)"
 
 
 BEAM = {
