@@ -4,7 +4,8 @@
 import shutil
 import unittest
 
-from exemplar_runner import SceneTest, bend, read_csv, results, twist
+from exemplar_runner import SceneTest, bend, has_trilinos, read_csv, results, twist
+from mpirun import launch
 
 SCENE = {
     "Scene": "static", "Mesh/Generator": "box", "Mesh/Box size": "4, 1, 1", "Mesh/Box cells": "4, 1, 1",
@@ -78,6 +79,14 @@ class WeightsFile(SceneTest):
         rows = self.columns(self.solve({**interpolation, "Examples/Weights file": "tables/weights.csv"}, file="scenes/scene.prm", output="way"))
         self.assertAlmostEqual(rows[0][1], .1, delta=1e-14)
         self.assertAlmostEqual(rows[-1][1], .7, delta=1e-14)
+
+    @unittest.skipUnless(shutil.which("mpirun") and has_trilinos(), "without mpirun, or built without Trilinos")
+    def test_two_processes(self):
+        self.write("weights.csv", TABLE)
+        one = self.columns(self.solve({**SCENE, **FILE}, output="one"))
+        status, own, done = launch(2, self.directory / "scene.prm", "--quiet", "--output", self.directory / "two")
+        self.assertEqual((status, own), (0, []), done.stderr)
+        self.assertEqual(self.columns(self.directory / "two"), one)
 
     def test_a_column_in_the_wrong_place(self):
         self.write_box(SCENE, "up.msh")
