@@ -7,14 +7,17 @@
 #include <exemplar/exemplar.h>
 #include <exemplar/live/run_frames.h>
 #include <exemplar/live/run_motion.h>
+#include <exemplar/mesh/mesh_arrays.h>
 #include <exemplar/mesh/mesh_inputs.h>
 #include <exemplar/mesh/msh_file.h>
+#include <exemplar/obstacles/obstacle_picture.h>
 #include <exemplar/run/output/checkpoint.h>
 #include <exemplar/run/output/frame_output.h>
 #include <exemplar/run/output/output_directory.h>
 #include <exemplar/run/output/run_directory.h>
 #include <exemplar/run/scene/scene_file.h>
 #include <exemplar/surface/files/point_cache.h>
+#include <exemplar/surface/shape/triangle_surface.h>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -300,15 +303,46 @@ namespace Exemplar::Live
         add_obstacles_of_cache(*format);
     }
 
-    /// The obstacles that the run has written beside the body.
+    /// The surface of a scene's obstacles, as frames have it; its places are those of no frame.
+    SurfaceMesh
+    surface_of_obstacles(const SceneParameters &scene, const double diameter)
+    {
+      ObstaclesParameters obstacles = scene.obstacles;
+      obstacles.distance = obstacles.slip_speed = "auto"; // no picture depends on them
+      ObstacleSurfaces surfaces;
+      for (ObstacleParameters &obstacle : obstacles.named)
+      {
+        ObstacleSurface &surface = surfaces[obstacle.name];
+        obstacle.follow_track = obstacle.follow_cache = "";
+        if (const std::string file = obstacle.surface_file(); !file.empty())
+        {
+          const TriangleSurface triangles = triangulate(read_surface(file));
+          surface.vertices                = triangles.vertices;
+          surface.triangles               = triangles.triangles;
+        }
+      }
+      const Obstacles all(obstacles, diameter, surfaces);
+      return ObstaclePicture(all, diameter).surface();
+    }
+
+    /// The obstacles that the run has written beside the body; a note if their surface is not known.
     void
     RunReader::add_obstacles_of_cache(const FrameFormat &format)
     {
-      const fs::path    file = files.directory / format.animation_name(name_of_obstacles);
-      const SurfaceMesh rest = shape("rest", name_of_obstacles);
+      const fs::path file = files.directory / format.animation_name(name_of_obstacles);
       require_run_file(file);
-      const auto cache = open_point_cache(file.string(), 1., rest,
-                                          (files.directory / "rest_obstacles.obj").string());
+      SurfaceMesh                       rest;
+      std::unique_ptr<const PointCache> cache;
+      try
+      {
+        rest  = surface_of_obstacles(parameters, box_diagonal(motion.rest));
+        cache = open_point_cache(file.string(), 1., rest, "the scene's obstacles");
+      }
+      catch (const UserError &error)
+      {
+        motion.notes.push_back(std::string("Obstacles are left out of the file. ") + error.what());
+        return;
+      }
       motion.obstacles = rest.faces;
       for (std::size_t k = 0; k < std::min(cache->get_times().size(), motion.frames.size()); ++k)
         motion.obstacle_frames.push_back(scaled(cache->sample(k), parameters.mesh.scale, file));

@@ -91,7 +91,8 @@ namespace Exemplar::Live
       const auto until  = is_active ? pace.get_due() : Pace::Clock::now() + std::chrono::seconds(1);
       for (const Command &command : mailbox.take(!is_due, until))
         obey(command);
-      show_obstacles();
+      if (obstacles.are_old(stage.get_problem()))
+        show_frame();
       if (state_is_new)
         show_state();
       if (is_due)
@@ -223,12 +224,13 @@ namespace Exemplar::Live
       tell("warning", message + " The body is at its beginning again, and the simulation pauses.");
       return;
     }
-    const bool have_handles = !hand.get_held().handles.empty();
+    const Hand::Held &held        = hand.get_held();
+    const bool        has_dragged = !held.handles.empty() || !held.obstacles.empty();
     stage.act(hand.let_go_of_all(stage.get_problem()));
     stage.act(hand.stop_handles(before, stage.get_problem()));
     stage.forget();
     tell("warning", message + " Everything that pulled has let go"
-                        + (have_handles ? ", and handles that were dragged stop here." : "."));
+                        + (has_dragged ? ", and what was dragged stops here." : "."));
   }
 
   void
@@ -272,6 +274,7 @@ namespace Exemplar::Live
     held_before.clear();
     n_failures = 0;
     pace.restart();
+    show_obstacles();
     outbox.welcome(welcome());
     show_frame();
     tell("warning", "The body begins anew, with this pose as its example " + name + ".");
@@ -316,6 +319,7 @@ namespace Exemplar::Live
   void
   Simulation::show_frame()
   {
+    show_obstacles();
     const State &state = stage.get_problem().state;
     const Bytes  frame = frame_message(
          { BinaryKind::frame, ++shown.n_frames, state.step, shown.pointer, state.time }, surface,
@@ -335,7 +339,6 @@ namespace Exemplar::Live
       of.push_back(topology_message(BodySurface(), BinaryKind::topology_of_obstacles));
     outbox.obstacles(welcome(), of);
     state_is_new = true;
-    show_frame();
   }
 
   void

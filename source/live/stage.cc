@@ -4,8 +4,6 @@
 #include <exemplar/run/output/weight_names.h>
 #include <exemplar/run/problem/step_interval.h>
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <stdexcept>
@@ -54,18 +52,16 @@ namespace Exemplar::Live
     void
     refuse_what_is_there(const Problem &problem)
     {
-      constexpr double    least    = 0.02; // of the diameter
+      constexpr double    least    = 0.01; // of the diameter
       const double        diameter = problem.body.mesh.diameter();
       const ExamplePoses &poses    = problem.examples.poses;
       const auto          check    = [&](const Vector &pose, const std::string &name)
       {
-        const double part
-            = distance_from(pose, problem.state.positions, problem.body.mesh.n_nodes()) / diameter;
-        if (part < least)
-          throw UserError(fmt::format(
-              "the body is hardly away from {}: no point is farther from it than {:.1g} % of the "
-              "body's size. Pull it at least 2 % away, or hold it with pins while you pull.",
-              name, 100. * part));
+        if (distance_from(pose, problem.state.positions, problem.body.mesh.n_nodes())
+            < least * diameter)
+          throw UserError("the body is hardly away from " + name
+                          + ": all of it is within 1 % of its size from there. Pull it farther, or "
+                            "hold it with pins.");
       };
       check(problem.body.fe_space.rest_positions(), "rest");
       for (unsigned int i = 0; i < poses.size(); ++i)

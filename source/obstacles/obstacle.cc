@@ -170,9 +170,11 @@ namespace Exemplar
   SpaceVector3
   Obstacle::Carriage::at(const double time) const
   {
-    if (time >= end)
+    // times of steps are rounded, and what was carried is exactly there
+    const double rounded = 1e-9 * (end - begin);
+    if (time >= end - rounded)
       return to;
-    return time <= begin ? from : from + (time - begin) / (end - begin) * (to - from);
+    return time <= begin + rounded ? from : from + (time - begin) / (end - begin) * (to - from);
   }
 
   void

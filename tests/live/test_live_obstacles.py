@@ -159,7 +159,7 @@ class DrivenHandle(Base):
             top = max(z for _, _, z in viewer.frames[0].places)
             viewer.send(type="handle", name="left", numbers=[0, 0, 3.])
             said = viewer.wait_for("warning")["text"]
-            self.assertIn("stop here", said)
+            self.assertIn("stops here", said)
             state = viewer.wait_for("state")
             shift = state["handles"][0]["shift"][2]
             self.assertTrue(.3 < shift < 1.2 - top, shift)
