@@ -52,7 +52,7 @@ namespace Exemplar
                     const FreeDofs       &free_dofs,
                     Vector               &positions)
           : contacts(contacts), surface(surface), fe_space(fe_space), free_dofs(free_dofs),
-            positions(positions)
+            positions(positions), drawn(positions)
       {
       }
 
@@ -64,7 +64,7 @@ namespace Exemplar
         find_joints(seen);
         if (!joints.empty())
         {
-          move_apart(notes);
+          move_apart(seen, notes);
           seen = look();
         }
         if (!joints.empty())
@@ -173,17 +173,16 @@ namespace Exemplar
 
       /// Move pieces as wholes such that they are apart. Joints are left where that does not do.
       void
-      move_apart(std::vector<std::string> &notes)
+      move_apart(const std::map<PiecePair, Standing> &near, std::vector<std::string> &notes)
       {
-        std::map<PiecePair, TouchingPieces> touching;
-        for (const auto &[of, joint] : joints)
-          touching[of] = { least_of(of), joint.overlaps ? contacts.usual_width(of) : least_of(of) };
-        const auto ways
-            = ways_of_pieces_apart(touching, contacts, surface, positions, held_pieces());
+        // those that do not touch must not come to that
+        std::map<PiecePair, TouchingPieces> pairs;
+        for (const auto &[of, standing] : near)
+          pairs[of] = { least_of(of), contacts.usual_width(of) };
+        const auto ways = ways_of_pieces_apart(pairs, contacts, surface, positions, held_pieces());
         if (ways.empty())
           return;
-        const Vector before   = positions;
-        double       farthest = 0.;
+        double farthest = 0.;
         for (unsigned int node = 0; node < fe_space.n_nodes(); ++node)
         {
           const StandingSurface::Place &way = ways[contacts.pieces[node]];
@@ -200,9 +199,15 @@ namespace Exemplar
         for (const auto &[of, standing] : seen)
           if (!is_enough(of, standing) && joints.count(of) == 0)
           {
-            positions = before;
+            positions = drawn;
             return;
           }
+        if (std::none_of(joints.begin(), joints.end(),
+                         [&](const auto &joint) { return is_apart(joint.first); }))
+        {
+          positions = drawn;
+          return;
+        }
         const std::size_t n_all = joints.size();
         const std::string first = place_text(joints.begin()->second.place);
         for (auto joint = joints.begin(); joint != joints.end();)
@@ -349,7 +354,7 @@ namespace Exemplar
       [[noreturn]] void
       refuse(const PiecePair &of, const StandingSurface::Place &place) const
       {
-        const WayApart apart = way_apart(of, contacts, surface, positions);
+        const WayApart apart = way_apart(of, contacts, surface, drawn);
         throw UserError(
             fmt::format("Two pieces of the mesh overlap near {} m where the scene begins, by more "
                         "than the {} m "
@@ -367,6 +372,7 @@ namespace Exemplar
       const FESpace             &fe_space;
       const FreeDofs            &free_dofs;
       Vector                    &positions;
+      Vector                     drawn; ///< positions before pieces were moved
       std::map<PiecePair, Joint> joints;
     };
   } // namespace

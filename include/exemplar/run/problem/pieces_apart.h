@@ -11,13 +11,13 @@
 
 namespace Exemplar
 {
-  /// Two pieces that touch or overlap: how far apart they must be, and from where places are near both [m].
+  /// Two pieces that are near each other: how far apart they must be, and up to which distance places of the one face the other [m].
   struct TouchingPieces
   {
     double distance, near;
   };
 
-  /// Displacements of the pieces as wholes after which those that touch are apart by their distances where they face each other; empty:
+  /// Displacements of the pieces as wholes after which they are apart by their distances where they face each other; empty:
   /// there are none, as where a piece is between two that stay. Pieces that are tied together go together.
   std::vector<dealii::Tensor<1, 3>>
   ways_of_pieces_apart(const std::map<PiecePair, TouchingPieces> &touching,
