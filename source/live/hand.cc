@@ -70,7 +70,7 @@ namespace Exemplar::Live
     {
       const FESpace      &fe_space  = problem.body.fe_space;
       const State        &state     = problem.state;
-      const auto          held      = problem.held_slopes(); // none but in a shell
+      const HeldTips     &held      = problem.constraints.held_tips; // none but in a shell
       const Vector        positions = held.empty()
                                           ? state.positions
                                           : fe_space.with_tips(state.positions, held, state.history);
