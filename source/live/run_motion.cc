@@ -321,7 +321,7 @@ namespace Exemplar::Live
           surface.triangles               = triangles.triangles;
         }
       }
-      const Obstacles all(obstacles, diameter, surfaces);
+      const Obstacles all(obstacles, diameter, PieceSizes(diameter), surfaces);
       return ObstaclePicture(all, diameter).surface();
     }
 

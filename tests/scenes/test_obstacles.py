@@ -200,6 +200,60 @@ class Frictional(ObstacleTest):
         speeds = [row["momentum_x"] / mass for row in rows]
         self.assertAlmostEqual((speeds[-1] - speeds[-26]) / (25 * 0.02) / expected, 1, delta=0.005)
 
+    def uniformly_accelerated(self, acceleration, step, n, scheme):
+        """The displacement of a rigid body that begins at rest, by the scheme itself."""
+        way, speed = [0.0], [0.0]
+        for i in range(n):
+            second = scheme == "bdf2" and i > 0
+            v, x = ((4 * values[-1] - values[-2]) / 3 if second else values[-1] for values in (speed, way))
+            gamma = 2 * step / 3 if second else step
+            speed.append(v + gamma * acceleration)
+            way.append(x + gamma * speed[-1])
+        return way[-1]
+
+    def test_friction_acts_from_the_first_step(self):
+        """A stiff block, whose waves take 0.1 ms: it stays, or slides as a rigid body does."""
+        self.write("ground.obj", SHEET.replace("-0.25", "-0.05").replace("-0.2", "-0.05").replace("-0.3", "-0.05"))
+        for shape, scheme, method, step in (("plane 0 0 -0.05 0 0 1", "implicit euler", "quasi newton", 0.001),
+                                            ("box -9 -9 -9 9 9 -0.05", "bdf2", "newton", 0.002), ("surface ground.obj", "implicit euler", "newton", 0.01)):
+            for part in (0.98, 1.1):
+                with self.subTest(shape=shape, part=part):
+                    friction = 0.45
+                    rows = self.slope(part * friction, str(friction), **{
+                        "Material/Young's modulus": "1e9", "Mesh/Box cells": "2, 2, 1", "Obstacles/floor/Shape": shape, "Time/Scheme": scheme,
+                        "Solver/Method": method, "Time/Step": str(step), "Time/End": "0.1", "Obstacles/Lag tolerance": "1e-4",
+                        "Solver/Step tolerance": "1e-5"})
+                    nodes = np.array(list(nodes_of(self.directory / "out" / "final.msh").values()))
+                    way = nodes[:, 0].mean() - 0.05
+                    tangent = part * friction
+                    expected = self.uniformly_accelerated(G * (tangent - friction) / sqrt(1 + tangent**2), step, len(rows) - 1, scheme)
+                    if part < 1:
+                        self.assertLess(abs(way), 1e-4)
+                    else:
+                        self.assertAlmostEqual(way / expected, 1, delta=0.01)
+
+    def test_a_block_that_begins_in_its_equilibrium(self):
+        """A soft block whose statics have been solved: its weight is borne from the first step, and it stays or slides without a swing."""
+        for part, friction in ((0.98, 0.4), (1.1, 0.4)):
+            with self.subTest(part=part):
+                tangent = part * friction
+                cosine = 1 / sqrt(1 + tangent**2)
+                block = {**CUBE, "Mesh/Box size": "0.5, 0.5, 0.5", "Mesh/Box cells": "3, 3, 3", "Material/Young's modulus": "3e6",
+                         "Obstacles/floor/Shape": "plane 0 0 -0.25 0 0 1", "Loads/Gravity": f"{G * tangent * cosine}, 0, {-G * cosine}"}
+                stands = self.solve({**block, "Scene": "static", "Time/Step": None, "Time/End": None, "Time/Increments": "1",
+                                     "Obstacles/Free": "friction", "Obstacles/floor/Friction": "10"}, output="stands")
+                moves = self.solve({**block, "Initial/Pose": str(stands / "final.msh"), "Obstacles/floor/Friction": str(friction),
+                                    "Time/Step": "0.006", "Time/End": "0.6"}, output="moves")
+                borne = [row["contact_floor_z"] / (125 * G * cosine) for row in read_csv(moves)[1:]]
+                self.assertLess(max(abs(one - 1) for one in borne), 0.05)
+                ends = [np.array(list(nodes_of(output / "final.msh").values()))[:, 0].mean() for output in (stands, moves)]
+                way = ends[1] - ends[0]
+                expected = self.uniformly_accelerated(G * (tangent - friction) * cosine, 0.006, 100, "implicit euler")
+                if part < 1:
+                    self.assertLess(abs(way), 2e-3)
+                else:
+                    self.assertAlmostEqual(way / expected, 1, delta=0.02)
+
     def test_a_cube_that_slides_stops_where_it_should(self):
         rows = read_csv(self.solve({**CUBE, "Obstacles/floor/Friction": "0.3", "Initial/Velocity": "10; 0; 0", "Time/End": "3.6",
                                     "Time/Step": "0.02"}))

@@ -15,6 +15,9 @@ namespace Exemplar
     /// The diameters are those of the whole body's pieces. All processes must call this.
     PieceSizes(const Mesh &mesh, const FESpace &fe_space);
 
+    /// One piece of this diameter [m].
+    explicit PieceSizes(const double diameter) : diameters({ diameter }) {}
+
     std::vector<unsigned int> pieces;    ///< of the nodes of this process
     std::vector<double>       diameters; ///< of the pieces: diagonals of their boxes [m]
   };

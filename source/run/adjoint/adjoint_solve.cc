@@ -15,13 +15,13 @@ namespace Exemplar
 {
   namespace
   {
-    /// Generalised conjugate residuals (Eisenstat, Elman and Schultz 1983): minimises the residual
-    /// over the preconditioned steps; one step if the preconditioner is the exact inverse.
+    /// Generalised conjugate residuals (Eisenstat, Elman and Schultz 1983): minimises the residual, preconditioned
+    /// from the left, over the steps; one step if the preconditioner is the exact inverse. A residual is then a
+    /// displacement. Forces would not do: those of a stiff barrier that friction feels are many times greater than all others.
     class ConjugateResiduals
     {
     public:
-      /// `of_weights`: factor of a weight's entry relative to a degree of freedom's in the inner
-      /// product.
+      /// `of_weights`: factor of a weight's entry relative to a displacement in the inner product [m].
       explicit ConjugateResiduals(double of_weights) : of_weights(of_weights) {}
 
       /// Orthonormalise `image`, the image of `step`, against the earlier ones, and subtract from
@@ -95,6 +95,14 @@ namespace Exemplar
       return { derivatives.by_positions, derivatives.by_weights };
     }
 
+    Direction
+    preconditioned(AdjointSystem &system, const Direction &forces)
+    {
+      Direction step = system.zero();
+      system.add_solution(forces, step);
+      return step;
+    }
+
     /// Correct the solution of an approximate factor by conjugate residuals with exact derivatives;
     /// returns the relative residual.
     double
@@ -103,25 +111,22 @@ namespace Exemplar
             const FindDerivatives &find,
             AdjointSolution       &solution)
     {
-      ConjugateResiduals residuals(system.scale_of_weights());
-      Direction          step = std::move(solution.direction), rest = system.projected(by_state);
-      solution.direction = system.zero();
-      double error       = 1.;
+      ConjugateResiduals residuals(1. / system.scale_of_weights());
+      Direction          rest = std::move(solution.direction);
+      solution.direction      = system.zero();
+      double error            = 1.;
       for (unsigned int n = 0; n < max_corrections && !(error <= solved); ++n)
       {
         if (n > 0)
-        {
-          step = system.zero();
-          system.add_solution(rest, step);
-          solution.derivatives = find(step);
-        }
-        residuals.add(step, system.projected(image_of(solution.derivatives)), solution.direction,
-                      rest);
+          solution.derivatives = find(rest);
+        residuals.add(rest, preconditioned(system, image_of(solution.derivatives)),
+                      solution.direction, rest);
         if (n == 0 || (n > 3 && n % 4 != 3))
           continue;
         solution.derivatives = find(solution.direction);
-        error = system.residual(by_state, solution.direction, solution.derivatives, rest);
-        rest  = system.projected(std::move(rest));
+        Direction forces;
+        error = system.residual(by_state, solution.direction, solution.derivatives, forces);
+        rest  = preconditioned(system, forces);
       }
       return error;
     }

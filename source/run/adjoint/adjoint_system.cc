@@ -96,20 +96,6 @@ namespace Exemplar
              std::vector<double>(problem.state.weights.size(), 0.) };
   }
 
-  Direction
-  AdjointSystem::projected(Direction rest) const
-  {
-    Vector positions(rest.positions.size());
-    for (const unsigned int dof : free)
-      positions[dof] = rest.positions[dof];
-    rest.positions = std::move(positions);
-    subtract_multipliers(rest);
-    for (std::size_t weight = 0; weight < rest.weights.size(); ++weight)
-      if (weight >= inactive.size() || !inactive[weight])
-        rest.weights[weight] = 0.;
-    return rest;
-  }
-
   double
   AdjointSystem::scale_of_weights()
   {

@@ -41,11 +41,6 @@ namespace Exemplar
     Direction
     zero() const;
 
-    /// A residual with zeros at held degrees of freedom and weights at bounds, and without
-    /// multipliers.
-    Direction
-    projected(Direction rest) const;
-
     /// Factor that makes residuals of weights [J] comparable to those of degrees of freedom [N].
     double
     scale_of_weights();
