@@ -58,7 +58,8 @@ namespace Exemplar::Testing
         problem.potential.set_time(1., end);
         problem.constraints.handles.move(1., end.positions);
         problem.system.factorize_metric(state.positions, state.weights);
-        StagedMotion       motion(problem.potential, problem.constraints.handles);
+        const std::function<bool()> uninterrupted;
+        StagedMotion       motion(problem.potential, problem.constraints.handles, uninterrupted);
         const unsigned int n = motion.move(0., state.positions, 1., end.positions,
                                            [&](std::vector<double> &forces)
                                            { problem.system.bordered().apply_inverse(forces); });
@@ -188,7 +189,8 @@ namespace Exemplar::Testing
           State end = state;
           problem.potential.set_time(1., end);
           problem.system.factorize_metric(state.positions, state.weights);
-          StagedMotion motion(problem.potential, problem.constraints.handles);
+          const std::function<bool()> uninterrupted;
+          StagedMotion motion(problem.potential, problem.constraints.handles, uninterrupted);
           problem.potential.move_to(0.);
           EXPECT_LE(motion.move(0., state.positions, 1., end.positions,
                                 [&](std::vector<double> &forces)
