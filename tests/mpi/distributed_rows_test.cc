@@ -155,8 +155,8 @@ namespace Exemplar::Testing
         for (const auto is_held : { left_end, rollers })
         {
           make(box_mesh(4., 6, 2), is_held, partition);
-          const auto matrix = part->reinit(
-              std::make_unique<MultigridOperator>(part->free_dofs, 1e-13, make_one_level));
+          const auto    matrix      = part->reinit(std::make_unique<MultigridOperator>(
+              part->free_dofs, 1e-13, std::vector<unsigned int>(), make_one_level));
           const Columns without     = solve(*matrix);
           *matrix->outer_products() = own_products;
           const Columns with = solve(*matrix), expected = own_rows(solve_assembled());
@@ -170,8 +170,8 @@ namespace Exemplar::Testing
       for (const auto is_held : { left_end, rollers })
       {
         make(box_mesh(4., 6, 2), is_held, scattered);
-        const auto matrix = part->reinit(
-            std::make_unique<MultigridOperator>(part->free_dofs, 1e-13, make_one_level));
+        const auto matrix = part->reinit(std::make_unique<MultigridOperator>(
+            part->free_dofs, 1e-13, std::vector<unsigned int>(), make_one_level));
         EXPECT_LT(difference(solve(*matrix), own_rows(solve_alone(make_cholesky_operator()))),
                   1e-10);
       }
