@@ -57,13 +57,15 @@ namespace Exemplar
   std::optional<EnergyExcess>
   EnergyBalance::add_time_step(const EnergyStep &step)
   {
+    // where a force is greatest within the step, both rules are below its work, by less than the last step's doubt
+    const double of_work      = step.doubt + last.doubt;
     const double had          = last.stored + last.kinetic + step.work;
-    const double new_doubt    = step.doubt + step.unsolved;
+    const double new_doubt    = of_work + step.unsolved;
     const double new_greatest = std::max(greatest, step.size);
     if (step.stored - had > new_doubt + step.rounding + allowed * new_greatest)
       return EnergyExcess{ last.step, step.stored, had, new_doubt };
     greatest = new_greatest;
-    rise.energy += step.stored + step.kinetic - had - step.doubt - step.rounding;
+    rise.energy += step.stored + step.kinetic - had - of_work - step.rounding;
     if (!(rise.energy > 0.))
       rise = { step.step, 0, 0., 0. };
     else if (rise.energy > most.energy)

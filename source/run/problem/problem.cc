@@ -217,58 +217,6 @@ namespace Exemplar
     return report;
   }
 
-  bool
-  Problem::has_parts(const StepInterval &interval) const
-  {
-    return parameters.scene == SceneKind::statics
-           && (potential.is_driven(state, interval.end)
-               || constraints.handles.are_elsewhere(interval.end, state.positions));
-  }
-
-  SolveReport
-  Problem::make_step_in_parts(const StepInterval &interval, const SolveReport &refused)
-  {
-    const State       begin           = state;
-    const std::string memory          = solver_memory();
-    const auto        return_to_begin = [&]
-    {
-      resume_from(begin, memory);
-      follow_time(state.time);
-    };
-    for (const unsigned int n : { 4U, 16U, 64U })
-    {
-      bool        gains_energy = false;
-      SolveReport sum;
-      try
-      {
-        for (unsigned int k = 1; k <= n && (k == 1 || is_success(sum.status)); ++k)
-        {
-          state.step = begin.step;
-          const double end
-              = k == n ? interval.end : begin.time + k * (interval.end - begin.time) / n;
-          SolveReport part = make_step({ end, interval.size / n }, gains_energy);
-          part.iterations += sum.iterations;
-          part.factorizations += sum.factorizations;
-          part.load_stages += sum.load_stages;
-          sum = std::move(part);
-        }
-      }
-      catch (...)
-      {
-        return_to_begin();
-        throw;
-      }
-      if (is_success(sum.status))
-      {
-        audit->count_parts(state.step);
-        spare = begin;
-        return sum;
-      }
-      return_to_begin();
-    }
-    return refused;
-  }
-
   SolveReport
   Problem::make_step(const StepInterval &interval, bool &gains_energy)
   {
@@ -323,32 +271,6 @@ namespace Exemplar
     else
       solver->forget(); // its memory includes the failed step
     return report;
-  }
-
-  bool
-  Problem::audit_step(const State &next, const StepInterval &interval, SolveReport &report)
-  {
-    if (audit == nullptr)
-      return false;
-    if (parameters.solver.starts == Starts::examples && interval.end == end_of_scene(*this))
-    {
-      audit->restart("Solver/Starts = examples");
-      return false;
-    }
-    const std::string failure = audit->add_step(state, next);
-    if (failure.empty())
-      return false;
-    report.status  = SolveStatus::failed;
-    report.failure = failure;
-    elastic->set_history(state.history);
-    return true;
-  }
-
-  void
-  Problem::restart_audit(const std::string &what)
-  {
-    if (audit != nullptr)
-      audit->restart(what);
   }
 
   void

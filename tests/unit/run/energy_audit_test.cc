@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace Exemplar::Testing
 {
   namespace
@@ -91,6 +93,30 @@ namespace Exemplar::Testing
       ASSERT_TRUE(excess);
       EXPECT_DOUBLE_EQ(excess->grown, 10.1);
       EXPECT_DOUBLE_EQ(excess->work, 10.08);
+    }
+
+    /// A slow press with a force that rises to 1 and falls again at the rate of 1, by steps of 0.4 around its greatest value at 1:
+    /// the work of the third step is 0.36, and that of both rules 0.32.
+    TEST(EnergyAudit, AForceMayBeGreatestWithinAStep)
+    {
+      const auto energy
+          = [](const double u) { return u < 1. ? u * u / 2. : 1. - (2. - u) * (2. - u) / 2.; };
+      const auto    force = [](const double u) { return u < 1. ? u : 2. - u; };
+      EnergyBalance balance(true);
+      balance.begin(moving(0, 0., 0., 0.));
+      for (unsigned int step = 1; step < 5; ++step)
+      {
+        const double u = 0.4 * step, before = 0.4 * (step - 1);
+        EnergyStep   at = moving(step, energy(u), 0., 0.2 * (force(u) + force(before)));
+        at.doubt        = 0.2 * std::abs(force(u) - force(before));
+        if (step == 3)
+        {
+          EXPECT_NEAR(energy(u) - energy(before), 0.36, 1e-12);
+          EXPECT_NEAR(at.work + at.doubt, 0.32, 1e-12);
+        }
+        EXPECT_FALSE(balance.add(at)) << step;
+      }
+      EXPECT_FALSE(balance.gain());
     }
 
     /// An energy [J] from a time on that nothing pays for.
