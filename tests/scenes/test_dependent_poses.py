@@ -21,8 +21,8 @@ BEAM = {
     "Handles/Names": "left", "Handles/left/Select": "boundary 1",
     "Loads/Names": "tip", "Loads/tip/Select": "boundary 2", "Time/Increments": "10", "Solver/Tolerance": "1e-11", "Output/Every": "0",
 }
-SWINGING = {**BEAM, "Scene": "dynamic", "Loads/Names": None, "Loads/tip/Select": None, "Time/Increments": None, "Time/Step": ".005",
-            "Time/End": ".6", "Solver/Tolerance": "1e-9", "Solver/Method": "newton", "Initial/Velocity": "0; 0; .6*x^2"}
+SWINGING = {**BEAM, "Material/Young's modulus": "1e7", "Scene": "dynamic", "Loads/Names": None, "Loads/tip/Select": None, "Time/Increments": None, "Time/Step": ".005",
+            "Time/End": ".8", "Solver/Tolerance": "1e-9", "Solver/Method": "newton", "Initial/Velocity": "0; 0; 2*x^2"}
 WORDS = ("a combination of their strains is only", "A penalty along this combination prefers the rest pose", "positions change by up to some")
 
 
@@ -85,7 +85,7 @@ class DependentPoses(SceneTest):
     def test_regions_elements_and_patches(self):
         """The rule holds in each region, and in all elements."""
         for name, keys in {"patches": {"Model/Dilatation": "patches"}, "cells": {"Model/Dilatation": "cells"},
-                           "quadratic": {"Model/Element": "P2", "Mesh/Box cells": "6, 1, 1"},
+                           "quadratic": {"Model/Element": "P2"},
                            "found": {"Examples/Regions": "auto"}}.items():
             with self.subTest(name):
                 run = self.attempt({**BEAM, "Loads/tip/Force": "0; 0; t", "Time/Increments": "2", **keys}, output=name)
