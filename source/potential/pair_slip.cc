@@ -31,6 +31,18 @@ namespace Exemplar
       return points;
     }
 
+    /// Whether a symmetric matrix with this added to its diagonal is definite, clearly for entries of this size.
+    bool
+    is_definite(const dealii::Tensor<2, 3> &matrix, const double diagonal, const double size)
+    {
+      constexpr double     clearly = 1e-12;
+      dealii::Tensor<2, 3> sum     = matrix;
+      for (unsigned int c = 0; c < 3; ++c)
+        sum[c][c] += diagonal;
+      return sum[0][0] > 0. && sum[0][0] * sum[1][1] - sum[0][1] * sum[1][0] > 0.
+             && dealii::determinant(sum) > clearly * size * size * size;
+    }
+
     SpaceVector3
     weighted_sum(const PairPoints &points, const std::array<double, 4> &coefficients)
     {
@@ -46,11 +58,14 @@ namespace Exemplar
                    const PairPoints            &now,
                    const std::array<double, 4> &coefficients)
   {
-    constexpr unsigned int max_turns        = 50;
-    constexpr double       negligible       = 1e-15; ///< [rad]
-    constexpr double       least_of_moments = 1e-12; ///< of a matrix that can be inverted
+    constexpr unsigned int max_turns = 100;
+    constexpr double       small     = 1e-8; ///< [rad]: the next turn, its square, is rounding
     const PairPoints       there = centred(now), here = centred(before);
-    PairMotion             result;
+    double                 size = 0.;
+    for (unsigned int i = 0; i < 4; ++i)
+      size += here[i].norm() * there[i].norm();
+    double     last = 1.; // turn [rad]
+    PairMotion result;
     result.coefficients     = coefficients;
     result.of_points        = weighted_sum(there, coefficients);
     result.of_points_before = weighted_sum(here, coefficients);
@@ -66,19 +81,20 @@ namespace Exemplar
         products += dealii::outer_product(result.arms[i], there[i]);
         moment += dealii::cross_product_3d(result.arms[i], there[i]);
       }
-      const double         trace  = dealii::trace(products);
-      dealii::Tensor<2, 3> matrix = -0.5 * (products + dealii::transpose(products));
+      dealii::Tensor<2, 3> matrix   = -0.5 * (products + dealii::transpose(products));
+      const double         trace    = dealii::trace(products);
+      const bool           is_final = is_definite(matrix, trace, size);
+      // a turn from far away goes up the slope with a matrix that is definite
       for (unsigned int c = 0; c < 3; ++c)
-        matrix[c][c] += trace;
-      if (!(dealii::determinant(matrix) > least_of_moments * std::pow(std::abs(trace), 3)))
-        return {};
+        matrix[c][c] += is_final ? trace : trace + 3. * size;
       result.turn_by_moment       = dealii::invert(matrix);
       const SpaceVector3 rotation = result.turn_by_moment * moment;
-      if (rotation.norm() < negligible)
-        return result;
+      if (last < small)
+        return is_final ? std::optional(result) : std::nullopt;
+      last            = rotation.norm();
       result.rotation = rotation_by(rotation) * result.rotation;
     }
-    return result;
+    return {};
   }
 
   dealii::Tensor<2, 3>

@@ -18,7 +18,8 @@ namespace Exemplar
     {
       unsigned int first, second;
       SpaceVector3 normal;
-      double       by; ///< [m]
+      double       by;     ///< [m]
+      double       margin; ///< by which they go farther, so that few rounds do [m]
     };
 
     /// Where pieces face each other.
@@ -125,8 +126,10 @@ namespace Exemplar
       {
         constexpr double   same_direction = 1. - 1e-8;
         const SpaceVector3 area = area_normal(triangle), n = area / area.norm();
-        const double       gap = (place - x(surface.triangles[triangle].nodes[0])) * n;
-        Parting parting{ other, piece, n, touching.at(std::minmax(piece, other)).distance - gap };
+        const double       gap       = (place - x(surface.triangles[triangle].nodes[0])) * n;
+        constexpr double   part_more = 0.05;
+        const double       distance  = touching.at(std::minmax(piece, other)).distance;
+        Parting            parting{ other, piece, n, distance - gap, part_more * distance };
         if (piece < other)
         {
           std::swap(parting.first, parting.second);
@@ -174,7 +177,7 @@ namespace Exemplar
                        const std::set<unsigned int>              &staying)
   {
     constexpr unsigned int     max_rounds = 20000;
-    constexpr double           more = 1.02, farthest = 10.; // times what all partings have together
+    constexpr double           farthest   = 10.; // times what all partings have together
     const std::vector<Parting> partings
         = FacingPieces(touching, contacts, surface, positions).partings();
     const std::vector<unsigned int> group = groups_of_tied(contacts);
@@ -198,7 +201,7 @@ namespace Exemplar
         is_apart            = false;
         const double movers = (stays[a] != 0 ? 0. : 1.) + (stays[b] != 0 ? 0. : 1.);
         is_lost             = is_lost || movers == 0.;
-        const double each   = movers == 0. ? 0. : more * missing / movers;
+        const double each   = movers == 0. ? 0. : (missing + parting.margin) / movers;
         if (stays[a] == 0)
           ways[a] -= each * parting.normal;
         if (stays[b] == 0)
