@@ -54,9 +54,10 @@ namespace Exemplar::Python
     without_attribute(const py::handle &type, const std::string &name)
     {
       std::vector<std::string> names;
-      for (const py::handle one : py::module_::import("builtins").attr("dir")(type))
-        if (std::string of_type = py::str(one); of_type[0] != '_')
-          names.push_back(std::move(of_type));
+      if (!name.empty() && name[0] != '_') // numpy and others look for such names often
+        for (const py::handle one : py::module_::import("builtins").attr("dir")(type))
+          if (std::string of_type = py::str(one); of_type[0] != '_')
+            names.push_back(std::move(of_type));
       const std::string nearest = nearest_word(name, names);
       return "exemplar." + std::string(py::str(type.attr("__name__"))) + " has no attribute '"
              + name + "'." + (nearest.empty() ? "" : " Did you mean '" + nearest + "'?");

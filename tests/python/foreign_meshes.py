@@ -269,7 +269,7 @@ INP = {
     "Abaqus": lambda: "*Heading\n** Job name: a\n*Preprint, echo=NO, model=NO\n" + deck("*Node, nset=N, system=R", "*Element, type=C3D4H, elset={}", gap=",   ") + STEP,
     "Abaqus, modified elements": lambda: deck("*Node", "*Element, type=C3D10M, elset={}", MIDDLES),
     "sets in lines of their own": lambda: deck(cell="*ELEMENT, TYPE=C3D4"),
-    "small letters": lambda: deck(word=str.lower).replace("r1", "R1").replace("r2", "R2").replace("b1", "B1"),
+    "small letters": lambda: deck(word=str.lower).replace("r1", "R1").replace("r2", "R2").replace("b1", "B1").replace("held", "HELD"),
     "keywords in two lines": lambda: deck(cell="*ELEMENT,\nTYPE=C3D4,\nELSET={}"),
     "normals of nodes": lambda: deck().replace("1, 0.0, 0.0, 0.0\n", "1, 0.0, 0.0, 0.0, 0., 0., 1.\n", 1),
     "nodes of elements": lambda: deck() + "*NSET, NSET=FAR, ELSET=B12\n*NSET, NSET=BOTH\nHELD, FAR\n",

@@ -58,7 +58,7 @@ class Types(unittest.TestCase):
     def test_inspect_reads_signatures(self):
         self.assertEqual(str(inspect.signature(exemplar.Problem)), "(scene, mesh=None, poses=None)")
         self.assertEqual(str(inspect.signature(exemplar.Problem.set_motion)), "(self, name, function)")
-        self.assertEqual(str(inspect.signature(exemplar.Problem(BAR).plot)), "(values=None, axes=None)")
+        self.assertEqual(str(inspect.signature(exemplar.Problem(BAR).plot)), "(values=None, axes=None, label=None)")
         for name, member in named_members():
             if callable(member) and not isinstance(member, type):
                 with self.subTest(name):

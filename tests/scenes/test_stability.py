@@ -118,7 +118,7 @@ class Stability(StabilityTest):
     """A test of each quick study, and how many cases there are."""
 
     def test_number_of_cases(self):
-        cases = sum(int(re.search(r"(\d+) combinations", self.call("--validate", study).stdout).group(1))
+        cases = sum(int(re.search(r"(\d+) combinations?", self.call("--validate", study).stdout).group(1))
                     for study in STUDIES)
         self.assertEqual(cases, N_CASES)
 

@@ -41,7 +41,7 @@ namespace Exemplar::Testing
         progress.go_on_with(step, "filling");
       std::this_thread::sleep_for(std::chrono::milliseconds(1300));
       progress.finish();
-      expect_contains(out.str(), "[##########..........] stage 3 of 4, 1 s, filling");
+      expect_contains(out.str(), "[##########..........] stage 3 of 4, 1 s so far, filling");
       EXPECT_EQ(out.str().find("left"), std::string::npos);
     }
 
