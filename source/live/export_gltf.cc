@@ -152,7 +152,7 @@ namespace Exemplar::Live
         for (std::size_t t = 0; t < triangles.triangles.size(); ++t)
           for (const unsigned int vertex : triangles.triangles[t])
             indices[names[polygons[t]]].push_back(
-                number_of(vertex, texture_at(surface, polygons[t], vertex)));
+                number_of(vertex, texture_at(surface, polygons[t], vertex), surface));
       }
 
       bool
@@ -175,13 +175,15 @@ namespace Exemplar::Live
                                                  - corners.begin()];
       }
 
-      /// The vertex with this texture point; the first one of each keeps the number of the surface.
+      /// The vertex at this place of its texture, which files may hold once per corner; the first one of each keeps the
+      /// number of the surface.
       std::uint32_t
-      number_of(const unsigned int vertex, const unsigned int texture)
+      number_of(const unsigned int vertex, const unsigned int texture, const SurfaceMesh &surface)
       {
         if (texture == no_texture)
           return vertex;
-        const auto [copy, is_new] = copies.emplace(std::make_pair(vertex, texture), vertex);
+        const auto [copy, is_new]
+            = copies.emplace(std::make_pair(vertex, surface.texture_points[texture]), vertex);
         if (is_new && vertices[vertex].texture == no_texture)
           vertices[vertex].texture = texture;
         else if (is_new)
@@ -192,7 +194,7 @@ namespace Exemplar::Live
         return copy->second;
       }
 
-      std::map<std::pair<unsigned int, unsigned int>, std::uint32_t> copies;
+      std::map<std::pair<unsigned int, std::array<double, 2>>, std::uint32_t> copies;
     };
 
     class GltfMaker

@@ -149,7 +149,7 @@ class LookTest(PageTest):
             ActionChains(self.page).send_keys(Keys.TAB).perform()
             reached.add(self.run_script("const e = document.activeElement; return e.id || e.getAttribute('name') || e.tagName;"))
         self.assertLessEqual({"canvas", "fit", "front", "side", "top", "ground", "picture", "help", "SUMMARY", "with", "rule", "pause", "reset", "tool", "strength",
-                              "importance", "young", "poisson", "damping", "gravity", "colour"}, reached)
+                              "importance", "young", "poisson", "damping", "gravity", "colour", "energy", "ball", "block"}, reached)
 
     def test_nothing_moves_by_itself(self):
         self.run_script("window.shift = 0; new PerformanceObserver((list) => list.getEntries().forEach(({ value }) => (window.shift += value)))"

@@ -178,7 +178,7 @@ class ByHand(Base):
         return [text for text in viewer.texts if text["type"] == "state"][-1]
 
     def test_a_session(self):
-        (self.here / "scene.prm").write_text(prm(BAR))
+        (self.here / "scene.prm").write_text(prm({**BAR, "Time/Mass damping": "20"}))
         with Viewer(self.serve("--record", self.here / "session")) as viewer:
             def tip():
                 return max(z for x, _, z in viewer.frames[-1].places if x > 3.9)

@@ -167,7 +167,7 @@ class StateTest(unittest.TestCase):
         self.assertEqual(self.state(first)["settings"]["energy"], "mixed")
         first.send(type="energy", name="scaled")
         self.assertAlmostEqual(weight(), leads, delta=.02)
-        self.assertGreater(leads, 1.3 * guides)
+        self.assertGreater(leads, 1.05 * guides)
         first.send(type="energy", name="gentle")
         self.assertIn("no such energy", first.wait_for("refused")["text"])
         for energy in "mixed", "blended":

@@ -244,7 +244,7 @@ class ExportGltf(SceneTest):
             gltf = Gltf(self.directory / "run.glb")
             primitive, = gltf.json["meshes"][0]["primitives"]
             places, texture = (gltf.accessor(primitive["attributes"][name]) for name in ("POSITION", "TEXCOORD_0"))
-            for x, (u, v) in zip(places, texture, strict=True):
+            for x, (u, v) in zip(places[:-1], texture):  # no face uses the last
                 self.assertAlmostEqual(u, surface.texture[number[x]][0], delta=1e-6)
                 self.assertAlmostEqual(1 - v, surface.texture[number[x]][1], delta=1e-6)
 
@@ -333,7 +333,12 @@ class ExportGltf(SceneTest):
         frames = [self.points(output / f"frame_{step:04}.vtu") for step in [*range(0, 17, 2), 17]]
         moved = self.points(output / "frame_0000.vtu", "displacement")
         rest = [tuple(frames[0][i + c] - moved[i + c] for c in range(3)) for i in range(0, len(moved), 3)]
-        error, used = self.error(gltf, "body", rest, frames)
+        # the file has the nodes of the boundary, in their order
+        node = {tuple(map(single, x)): i for i, x in enumerate(rest)}
+        boundary = [node[x] for x in gltf.accessor(gltf.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"])]
+        self.assertEqual(boundary, sorted(set(boundary)))
+        error, used = self.error(gltf, "body", [rest[i] for i in boundary],
+                                 [[x for i in boundary for x in frame[3 * i:3 * i + 3]] for frame in frames])
         self.assertAlmostEqual(said[4] / error, 1., delta=1e-3)
         self.assertEqual((said[0], said[1], said[2], len(used)), (10, len(used), 1, len(used)))
         self.assertEqual(gltf.json["meshes"][0]["extras"]["targetNames"][0], "bent")
