@@ -136,7 +136,7 @@ class GradientsOfShells(unittest.TestCase):
                 quotient = (value(by_setter, **{key: at + h})[0] - value(by_setter, **{key: at - h})[0]) / (2 * h)
                 with self.subTest(key, by_setter=by_setter):
                     self.assertLess(abs(gradients[key].sum() / quotient - 1), 1e-6, (gradients[key].sum(), quotient))
-        pattern = random.uniform(-1., 1., len(CELLS))
+        pattern = np.random.default_rng(7).uniform(-1., 1., len(CELLS))
         for key, at in ("young", 1e5), ("poisson", .3):
             h = 1e-4 * at
             quotient = (value(True, **{key: at + h * pattern})[0] - value(True, **{key: at - h * pattern})[0]) / (2 * h)
@@ -144,10 +144,10 @@ class GradientsOfShells(unittest.TestCase):
                 self.assertLess(abs((gradients[key] * pattern).sum() / quotient - 1), 1e-6, ((gradients[key] * pattern).sum(), quotient))
 
     def test_motions_of_planes_of_symmetry(self):
-        """In a plane across y, and along a line of which y and z are held, tips follow their edges in the other components."""
+        """In a plane across y, and along a border of which y and z are held, tips follow their edges in the other components."""
         nodes = np.array(vertices) + .05 * np.array(vertices)[:, :1] ** 2 * [0, 0, 1]
         for components in "y", "y, z":
-            base = {**DYNAMIC, "Handles": {"left": STATIC["Handles"]["left"], "plane": {"Select": "box 0.1 -1 -1 2 1e-9 1", "Components": components, "Slopes": "held"}}}
+            base = {**DYNAMIC, "Handles": {"left": STATIC["Handles"]["left"], "plane": {"Select": "box 0.1 -1 -1 2 -0.199 1", "Components": components, "Slopes": "held"}}}
             base.pop("Examples")
             shape = []
 
@@ -164,11 +164,11 @@ class GradientsOfShells(unittest.TestCase):
                 return trajectory
             trajectory = record(None)
             found = trajectory.vjp(list(BY_POSITIONS))["handles"]
-            n, on_plane = len(nodes), np.flatnonzero((np.abs(nodes[:, 1]) < 1e-9) & (nodes[:, 0] > .1))
+            n, on_plane = len(nodes), np.flatnonzero((nodes[:, 1] < -.199) & (nodes[:, 0] > .1))
             edges = [n + k for k, (a, b) in enumerate(EDGES) if a in on_plane and b in on_plane]
             rows = np.array([*on_plane, *edges])
             self.assertEqual(len(rows), shape[0])
-            direction = random.normal(size=(len(rows), 3))
+            direction = np.random.default_rng(6).normal(size=(len(rows), 3))
             h = 1e-5
             quotient = sum((BY_POSITIONS * (record(h * direction).positions - record(-h * direction).positions)).ravel()) / (2 * h)
             with self.subTest(components):

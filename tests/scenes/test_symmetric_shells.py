@@ -103,7 +103,7 @@ class Symmetric(SceneTest):
             self.write(name + "_rolled.obj", obj_text([(radius * math.sin(x / radius), y, radius * (1. - math.cos(x / radius))) for x, y, _ in points], triangles))
             keys = {**SHEET, "Loads/Names": None, "Loads/Ramp": None, "Handles/Names": "clamp" + ("" if mirrored else ", sym"),
                     "Handles/clamp/Select": "box -1 -9 -1 1e-6 9 1", "Examples/Poses": name + "_rolled.obj", "Examples/Importance": "1",
-                    "Examples/Prescribed weights": "1-t; t", "Material/Poisson's ratio": "0"}
+                    "Examples/Weights": "prescribed", "Examples/Prescribed weights": "1-t; t", "Material/Poisson's ratio": "0"}
             if not mirrored:
                 keys.update({"Handles/sym/Select": "box -1 -1e-6 -1 9 1e-6 1", "Handles/sym/Slopes": "held", "Handles/sym/Components": "y"})
             results.append(self.run_shell(name, (points, triangles), keys))
