@@ -50,7 +50,7 @@ namespace Exemplar
   {
     n_kept = pairs.size();
     for (; !gone.empty(); gone.pop_front())
-      if (pairs.size() + spare.size() < max_pairs + 1)
+      if (spare.size() < max_pairs)
         spare.push_back(std::move(gone.front()));
   }
 

@@ -218,49 +218,6 @@ class Differences(AgainstDifferences, unittest.TestCase):
         self.assertLess(abs(found - expected), 1e-6 * abs(expected), (found, expected))
 
 
-class FromAStartOnTheFloor(unittest.TestCase):
-    """Cubes of 0.08 m that begin on a floor: gradients by friction and by the modulus of each cell."""
-    KEYS = {"Scene": "dynamic", "Mesh": {"Generator": "box", "Box size": [0.08] * 3, "Box cells": [2] * 3},
-            "Material": {"Young's modulus": 2e5, "Poisson's ratio": 0.3}, "Loads": {"Gravity": [0, 0, -9.81]},
-            "Solver": {"Tolerance": 1e-12}}
-
-    def states(self, base, names, friction=0.4, young=0.):
-        friction_of = {name: {**base["Obstacles"][name], "Friction": friction} for name in names}
-        problem = exemplar.Problem(scene(base, Obstacles={"Names": ", ".join(names), "Lag tolerance": 1e-10, **friction_of}))
-        problem.set_material(young=problem.young + young)
-        with problem.record() as trajectory:
-            for _ in range(self.n_steps):
-                problem.step()
-        return trajectory
-
-    def check(self, base, names, by_positions):
-        trajectory = self.states(base, names)
-        found = trajectory.vjp([None] * (self.n_steps - 1) + [by_positions])
-        value = lambda **changes: (by_positions * self.states(base, names, **changes).positions[-1]).sum()
-        along = np.random.default_rng(5).uniform(-2e4, 2e4, len(found["young"]))
-        of_friction = np.array([0.4 * found["obstacles"][one]["friction"] for one in names])
-        for name, contributions, at, direction in (("friction", of_friction, 0.4, 0.4), ("young", found["young"] * along, 0 * along, along)):
-            errors = []
-            for step in 5e-2, 1e-2, 2e-3, 3e-4, 4e-5:
-                expected = difference(lambda x, name=name: value(**{name: x}), at, direction, step)
-                errors.append(abs(contributions.sum() - expected) / max(abs(expected), np.linalg.norm(contributions)))
-                if errors[-1] < 1e-6:
-                    break
-            with self.subTest(name):
-                self.assertLess(min(errors), 1e-6, (contributions.sum(), expected, errors))
-
-    def test_what_begins_on_the_floor(self):
-        """The mean place of a cube that slides depends on forces that are far smaller than those of barriers, which friction feels."""
-        self.n_steps = 8
-        for method in "newton", "quasi newton":
-            for speed, slope in ((1.2, 0), (0, 5), (0, 1)):
-                with self.subTest(method, speed=speed, slope=slope):
-                    base = scene(self.KEYS, Initial={"Velocity": f"{speed}; 0; 0"}, Loads={"Gravity": [slope, 0, -9.81]}, Solver={"Method": method},
-                                 Time={"Step": 0.004, "End": 1}, Obstacles={"floor": {"Shape": "plane 0 0 -0.04 0 0 1"}})
-                    n = len(exemplar.Problem(self.KEYS | {"Time": {"Step": 1, "End": 1}}).positions)
-                    self.check(base, ["floor"], np.tile([1 / n, 0, 0], (n, 1)))
-
-
 class Answers(unittest.TestCase):
     def test_one_equilibrium(self):
         """problem.vjp() and the trajectory's are the same."""

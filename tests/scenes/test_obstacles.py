@@ -331,17 +331,16 @@ class Statics(ObstacleTest):
 
     def test_two_plates_press_a_body_that_nothing_else_holds(self):
         # without Poisson's effect and friction the strain is the same everywhere
-        for element in ("P1", "P2"):
-            for free, friction in (("weak springs", "0"), ("friction", "0.5")):
-                with self.subTest(free, element=element):
-                    output = self.solve({**self.PRESSED, "Model/Element": element, "Obstacles/Free": free, "Obstacles/above/Friction": friction,
-                                         "Obstacles/below/Friction": friction}, output=f"{element} {free}")
-                    rows, places = read_csv(output), np.array(list(nodes_of(output / "final.msh").values()))
-                    height = places[:, 2].max() - places[:, 2].min()
-                    self.assertLess(height, 0.0625)
-                    force = 1e5 * 0.01 * (1 - height / 0.1)
-                    self.assertAlmostEqual(rows[-1]["contact_above_z"] / -force, 1, delta=1e-3)
-                    self.assertAlmostEqual(rows[-1]["contact_below_z"] / force, 1, delta=1e-3)
+        for free, friction in (("weak springs", "0"), ("friction", "0.5")):
+            with self.subTest(free):
+                output = self.solve({**self.PRESSED, "Obstacles/Free": free, "Obstacles/above/Friction": friction, "Obstacles/below/Friction": friction},
+                                    output=free)
+                rows, places = read_csv(output), np.array(list(nodes_of(output / "final.msh").values()))
+                height = places[:, 2].max() - places[:, 2].min()
+                self.assertLess(height, 0.0625)
+                force = 1e5 * 0.01 * (1 - height / 0.1)
+                self.assertAlmostEqual(rows[-1]["contact_above_z"] / -force, 1, delta=1e-3)
+                self.assertAlmostEqual(rows[-1]["contact_below_z"] / force, 1, delta=1e-3)
 
     def test_friction_carries_a_stiff_body_with_the_floor(self):
         # by half of its size; springs to where it was would bear its weight
@@ -357,21 +356,15 @@ class Statics(ObstacleTest):
         write_boxes(self.directory / "two.msh", Box((0, 0, 0), (.1, .1, .06), (2, 2, 1)), Box((.02, .03, .061), (.07, .08, .1), (1, 1, 1)))
         for free in ("friction", "weak springs"):
             with self.subTest(free):
-                rows = read_csv(self.solve({**self.PRESSED, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None,
-                                            "Mesh/File": "two.msh", "Contact/Bodies": "true", "Contact/Friction": "0.5",
-                                            "Obstacles/below/Shape": "plane 0 0 0  0 0 1", "Obstacles/above/Shape": "plane 0 0 0.1  0 0 -1",
-                                            "Obstacles/above/Motion": "0; 0; -0.01*t", "Obstacles/below/Friction": "0.5",
-                                            "Obstacles/above/Friction": "0.5", "Obstacles/Free": free}, output=free))
+                run = self.attempt({**self.PRESSED, "Mesh/Generator": None, "Mesh/Box size": None, "Mesh/Box cells": None,
+                                    "Mesh/File": "two.msh", "Contact/Bodies": "true", "Contact/Friction": "0.5",
+                                    "Obstacles/below/Shape": "plane 0 0 0  0 0 1", "Obstacles/above/Shape": "plane 0 0 0.1  0 0 -1",
+                                    "Obstacles/above/Motion": "0; 0; -0.01*t", "Obstacles/below/Friction": "0.5",
+                                    "Obstacles/above/Friction": "0.5", "Obstacles/Free": free}, output=free)
+                self.assertEqual(run.status, 0, run.stderr)  # friction of the pair may not settle, which a warning says
+                rows = read_csv(run.output)
                 self.assertLess(rows[-1]["contact_above_z"], -1)
                 self.assertAlmostEqual(rows[-1]["contact_below_z"] / -rows[-1]["contact_above_z"], 1, delta=1e-3)
-
-    @needs_trilinos
-    def test_conjugate_gradients_find_what_springs_hold(self):
-        scene = {**self.PRESSED, "Obstacles/Free": "weak springs", "Mesh/Box cells": "6, 6, 6", "Time/Increments": "2",
-                 "Obstacles/above/Motion": "0; 0; -0.01*t", "Loads/Gravity": f"1, 0, {-G}"}
-        ends = [nodes_of(self.solve({**scene, "Solver/Linear solver": solver}, output=solver) / "final.msh")
-                for solver in ("cholesky", "iterative")]
-        self.assertLess(max(np.abs(np.subtract(place, ends[1][node])).max() for node, place in ends[0].items()), 1e-6)
 
     def test_a_body_that_an_obstacle_presses_is_loaded(self):
         pressed = {**self.CUBE, "Loads/Gravity": None, "Handles/Names": "soles", "Handles/soles/Select": "boundary 5",
@@ -489,7 +482,7 @@ class Refused(BadInputTest):
         ({"Obstacles/floor/Shape": "plane 0 0 0 0 0 1"}, "m deep. A displacement of the body by (0, 0, 0.1"),
         ({"Obstacles/floor/Shape": "box -5 -5 -5 5 5 5"}, "The body begins inside of Obstacles/floor"),
         ({"Obstacles/floor/Shape": "surface nothing.obj"}, "nothing.obj"),
-        ({"Obstacles/floor/Shape": "surface across.obj"}, "The body begins inside of Obstacles/floor"),
+        ({"Obstacles/floor/Shape": "surface across.obj"}, "The body touches Obstacles/floor"),
         ({"Obstacles/floor/Shape": "surface crossing.obj"}, "intersects itself near"),
         ({"Obstacles/floor/Friction": "-0.1"}, "Obstacles/floor/Friction = -0.1 is not allowed"),
         ({"Obstacles/floor/Friction": "1e300"}, "Obstacles/floor/Friction = 1e+300 is not allowed. Allowed: 0 to 1e6."),

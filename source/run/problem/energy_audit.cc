@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/number_text.h>
 #include <exemplar/run/problem/energy_audit.h>
 #include <exemplar/run/problem/problem.h>
@@ -124,9 +125,12 @@ namespace Exemplar
     add_work_of_weights(start, end, step);
     if (balance.has_begun())
       add_work_of_nodes(start, end, step);
-    constexpr double of_sums = 1e-13;
-    step.rounding            = now.rounding_energy + problem.elastic->rounding_energy(now.elastic)
-                    + of_sums * (step.size + std::abs(step.work));
+    constexpr double of_sums = 1e-13, of_positions = 4e-16;
+    // forces that cancel, as initial stresses and loads do, work along the rounding of positions
+    const double forces = exchange.sum(now.force_scale.l1_norm()),
+                 size   = exchange.max(max_entry(end.positions.begin(), end.positions.end()));
+    step.rounding       = now.rounding_energy + problem.elastic->rounding_energy(now.elastic)
+                    + of_sums * (step.size + std::abs(step.work)) + of_positions * forces * size;
     return step;
   }
 

@@ -212,6 +212,11 @@ namespace Exemplar
     SolveReport report       = make_step(interval, gains_energy);
     if (gains_energy && has_parts(interval))
       report = make_step_in_parts(interval, report);
+    if (gains_energy && !is_success(report.status))
+    {
+      audit->restart(report.failure); // a note of the run
+      report = make_step(interval, gains_energy);
+    }
     if (is_success(report.status) && on_step)
       on_step(spare, interval.size);
     return report;
