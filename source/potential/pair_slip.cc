@@ -58,8 +58,9 @@ namespace Exemplar
                    const PairPoints            &now,
                    const std::array<double, 4> &coefficients)
   {
-    constexpr unsigned int max_turns = 100;
-    constexpr double       small     = 1e-8; ///< [rad]: the next turn, its square, is rounding
+    constexpr unsigned int max_turns    = 200;
+    constexpr double       part_of_size = 0.1, longest = 1.; ///< [rad]
+    constexpr double       small = 1e-8; ///< [rad]: the next turn, its square, is rounding
     const PairPoints       there = centred(now), here = centred(before);
     double                 size = 0.;
     for (unsigned int i = 0; i < 4; ++i)
@@ -85,13 +86,16 @@ namespace Exemplar
       const double         trace    = dealii::trace(products);
       const bool           is_final = is_definite(matrix, trace, size);
       // a turn from far away goes up the slope with a matrix that is definite
+      const double diagonal = is_final ? trace : matrix.norm() + part_of_size * size;
       for (unsigned int c = 0; c < 3; ++c)
-        matrix[c][c] += is_final ? trace : trace + 3. * size;
-      result.turn_by_moment       = dealii::invert(matrix);
-      const SpaceVector3 rotation = result.turn_by_moment * moment;
+        matrix[c][c] += diagonal;
+      result.turn_by_moment = dealii::invert(matrix);
+      SpaceVector3 rotation = result.turn_by_moment * moment;
       if (last < small)
         return is_final ? std::optional(result) : std::nullopt;
-      last            = rotation.norm();
+      last = rotation.norm();
+      if (last > longest)
+        rotation *= longest / last;
       result.rotation = rotation_by(rotation) * result.rotation;
     }
     return {};

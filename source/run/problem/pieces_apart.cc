@@ -176,8 +176,8 @@ namespace Exemplar
                        const Vector                              &positions,
                        const std::set<unsigned int>              &staying)
   {
-    constexpr unsigned int     max_rounds = 20000;
-    constexpr double           farthest   = 10.; // times what all partings have together
+    constexpr std::size_t most_looks = 50000000; // at partings: a row of n pieces takes n^2 rounds
+    constexpr double      farthest   = 10.;      // times what all partings have together
     const std::vector<Parting> partings
         = FacingPieces(touching, contacts, surface, positions).partings();
     const std::vector<unsigned int> group = groups_of_tied(contacts);
@@ -188,8 +188,9 @@ namespace Exemplar
     double                    limit = 0.;
     for (const Parting &parting : partings)
       limit += farthest * std::max(0., parting.by);
-    bool is_apart = false, is_lost = false;
-    for (unsigned int round = 0; round < max_rounds && !is_apart && !is_lost; ++round)
+    bool is_apart = partings.empty(), is_lost = false;
+    for (std::size_t looks = 0; looks < most_looks && !is_apart && !is_lost;
+         looks += partings.size())
     {
       is_apart = true;
       for (const Parting &parting : partings)
