@@ -31,7 +31,7 @@ namespace Exemplar
   void
   Lbfgs::drop_oldest()
   {
-    std::deque<Pair> &to = n_kept > 0 ? gone : spare;
+    std::vector<Pair> &to = n_kept > 0 ? gone : spare;
     to.push_back(std::move(pairs.front()));
     pairs.pop_front();
     n_kept -= n_kept > 0 ? 1 : 0;
@@ -49,9 +49,10 @@ namespace Exemplar
   Lbfgs::keep()
   {
     n_kept = pairs.size();
-    for (; !gone.empty(); gone.pop_front())
+    for (Pair &pair : gone)
       if (spare.size() < max_pairs)
-        spare.push_back(std::move(gone.front()));
+        spare.push_back(std::move(pair));
+    gone.clear();
   }
 
   void
@@ -73,11 +74,16 @@ namespace Exemplar
   Lbfgs::memory_consumption() const
   {
     std::size_t bytes = 0;
-    for (const std::deque<Pair> *some : { &pairs, &gone, &spare })
-      for (const Pair &pair : *some)
+    const auto  add   = [&](const auto &some)
+    {
+      for (const Pair &pair : some)
         bytes
             += sizeof(double) * (pair.s.capacity() + pair.y.capacity() + pair.inverse_y.capacity())
                + sizeof(double) * 2 * pair.products.capacity();
+    };
+    add(pairs);
+    add(gone);
+    add(spare);
     return bytes;
   }
 

@@ -170,7 +170,7 @@ class GradientsOfShells(unittest.TestCase):
             self.assertEqual(len(rows), shape[0])
             direction = np.random.default_rng(6).normal(size=(len(rows), 3))
             h = 1e-5
-            quotient = sum((BY_POSITIONS * (record(h * direction).positions - record(-h * direction).positions)).ravel()) / (2 * h)
+            quotient = sum((np.array(BY_POSITIONS) * (np.array(record(h * direction).positions) - np.array(record(-h * direction).positions))).ravel()) / (2 * h)
             with self.subTest(components):
                 self.assertLess(abs((found[rows] * direction).sum() / quotient - 1), 1e-6, ((found[rows] * direction).sum(), quotient))
 

@@ -94,23 +94,6 @@ class Symmetric(SceneTest):
                                         "Loads/Ramp": None, "Solver/Step tolerance": "1e-12"})
         self.assertGreater(moved, 1.)
 
-    def test_half_of_a_sheet_rolls_up_with_the_whole(self):
-        """By an example of 1.2 turns, in which the edges in the plane turn through each angle."""
-        angle, results = 2.4 * math.pi, []
-        for name, mirrored in (("whole", True), ("half", False)):
-            points, triangles = sheet(ROWS, mirrored)
-            radius = LENGTH / angle
-            self.write(name + "_rolled.obj", obj_text([(radius * math.sin(x / radius), y, radius * (1. - math.cos(x / radius))) for x, y, _ in points], triangles))
-            keys = {**SHEET, "Loads/Names": None, "Loads/Ramp": None, "Handles/Names": "clamp" + ("" if mirrored else ", sym"),
-                    "Handles/clamp/Select": "box -1 -9 -1 1e-6 9 1", "Examples/Poses": name + "_rolled.obj", "Examples/Importance": "1",
-                    "Examples/Weights": "prescribed", "Examples/Prescribed weights": "1-t; t", "Material/Poisson's ratio": "0"}
-            if not mirrored:
-                keys.update({"Handles/sym/Select": "box -1 -1e-6 -1 9 1e-6 1", "Handles/sym/Slopes": "held", "Handles/sym/Components": "y"})
-            results.append(self.run_shell(name, (points, triangles), keys))
-        whole, half = results
-        self.assertLess(max(math.dist(x, whole[0][p]) for p, x in half[0].items()), 1e-8)
-        self.assertLess(max(row["energy_elastic"] for row in (whole[1], half[1])), 1e6)
-
     def test_an_eighth_of_a_tube_is_pulled_as_the_whole(self):
         """By two opposite forces. A line in the plane across y is held in one component, its ends in two."""
         n, rows, force = 5, 4, 4.

@@ -117,11 +117,11 @@ namespace Exemplar
     void
     drop_oldest();
 
-    const Exchange  *exchange;
-    std::deque<Pair> pairs;      ///< the oldest first
-    std::size_t      n_kept = 0; ///< so many of the oldest ones have been there since keep()
-    std::deque<Pair> gone;       ///< pairs that have left since keep(), in their order
-    std::deque<Pair> spare;      ///< memory of pairs that nobody needs any more
+    const Exchange   *exchange;
+    std::deque<Pair>  pairs;      ///< the oldest first
+    std::size_t       n_kept = 0; ///< so many of the oldest ones have been there since keep()
+    std::vector<Pair> gone;       ///< pairs that have left since keep(), in their order
+    std::vector<Pair> spare;      ///< memory of pairs that are no longer needed
   };
 } // namespace Exemplar
 
