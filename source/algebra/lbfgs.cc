@@ -49,6 +49,8 @@ namespace Exemplar
   Lbfgs::keep()
   {
     n_kept = pairs.size();
+    gone.reserve(max_pairs);
+    spare.reserve(max_pairs + 1);
     for (Pair &pair : gone)
       if (spare.size() < max_pairs)
         spare.push_back(std::move(pair));
