@@ -33,7 +33,7 @@ namespace Exemplar
   {
     std::vector<Pair> &to = n_kept > 0 ? gone : spare;
     to.push_back(std::move(pairs.front()));
-    pairs.pop_front();
+    pairs.erase(pairs.begin());
     n_kept -= n_kept > 0 ? 1 : 0;
   }
 
@@ -49,6 +49,7 @@ namespace Exemplar
   Lbfgs::keep()
   {
     n_kept = pairs.size();
+    pairs.reserve(max_pairs);
     gone.reserve(max_pairs);
     spare.reserve(max_pairs + 1);
     for (Pair &pair : gone)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/solvers/quasi_newton.h>
 
-#include <boost/serialization/deque.hpp>
 #include <boost/serialization/vector.hpp>
 #include <deal.II/base/memory_consumption.h>
 

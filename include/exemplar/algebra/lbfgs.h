@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstddef>
-#include <deque>
 #include <functional>
 #include <vector>
 
@@ -118,7 +117,7 @@ namespace Exemplar
     drop_oldest();
 
     const Exchange   *exchange;
-    std::deque<Pair>  pairs;      ///< the oldest first
+    std::vector<Pair> pairs;      ///< the oldest first
     std::size_t       n_kept = 0; ///< so many of the oldest ones have been there since keep()
     std::vector<Pair> gone;       ///< pairs that have left since keep(), in their order
     std::vector<Pair> spare;      ///< memory of pairs that are no longer needed
