@@ -224,6 +224,7 @@ def advance():
         remove_preview()
         Running.said = in_words(job.failure())
         say_pairs_left_out(job)
+        select_overlap(job)
         if not job.cancelled and "body.obj" in job.failure():
             Running.search = FaultSearch(job)
             return True
@@ -347,6 +348,16 @@ def say_pairs_left_out(job):
     vertices = scene_files.vertices_near(Running.shot, place)
     if select(set(), vertices):
         Running.said += f" {len(vertices)} vertices near the first pair are selected: see them in edit mode."
+
+
+def select_overlap(job):
+    """Select the vertices near the place at which the program says that two pieces overlap."""
+    place = job.place_of_overlap()
+    if place is None:
+        return
+    vertices = scene_files.vertices_near(Running.shot, place)
+    if select(set(), vertices):
+        Running.said += f"\n{len(vertices)} vertices near this place are selected: see them in edit mode."
 
 
 def select(faces, vertices):

@@ -74,6 +74,11 @@ class Job:
         found = re.search(r"Contact leaves out (\d+) pairs of parts of the surface that touch or cross at rest, the first near \(([^)]*)\) m", said)
         return (int(found[1]), [float(number) for number in found[2].split(",")]) if found else None
 
+    def place_of_overlap(self):
+        """Where two pieces overlap at the beginning [m], if this was the run's error; else None."""
+        found = re.search(r"pieces of the mesh overlap near \(([^)]*)\) m", "\n".join(self.messages()))
+        return [float(number) for number in found[1].split(",")] if found else None
+
     def failure(self):
         """In words, when it has ended; None: it was well."""
         if self.process.returncode == 0:
