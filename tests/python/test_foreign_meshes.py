@@ -29,6 +29,10 @@ class ForeignMeshesTest(unittest.TestCase):
             return exemplar.Problem({"Scene": "dynamic", "Mesh": {"File": str(file)}, "Time": {"End": 1}, "Handles": handles, **more})
 
     def check_selected(self, file, select, at):
+        if set(at) == {x[0] for x in foreign.NODES}:
+            with self.assertRaisesRegex(exemplar.UserError, "hold every node"):
+                self.problem(file, select)
+            return
         nodes = self.problem(file, select).handles["held"]
         self.assertEqual(list(nodes), [i for i, x in enumerate(foreign.NODES) if x[0] in at], select)
 

@@ -65,7 +65,7 @@ namespace Exemplar
           state.step = begin.step;
           const double end
               = k == n ? interval.end : begin.time + k * (interval.end - begin.time) / n;
-          SolveReport part = make_step({ end, interval.size / n }, gains_energy);
+          SolveReport part = solve_step({ end, interval.size / n }, gains_energy);
           part.iterations += sum.iterations;
           part.factorizations += sum.factorizations;
           part.load_stages += sum.load_stages;

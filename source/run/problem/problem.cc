@@ -209,21 +209,16 @@ namespace Exemplar
     check_weights(*this, interval);
     follow_time(state.time);
     bool        gains_energy = false;
-    SolveReport report       = make_step(interval, gains_energy);
+    SolveReport report       = solve_step(interval, gains_energy);
     if (gains_energy && has_parts(interval))
       report = make_step_in_parts(interval, report);
-    if (gains_energy && !is_success(report.status))
-    {
-      audit->restart(report.failure); // a note of the run
-      report = make_step(interval, gains_energy);
-    }
     if (is_success(report.status) && on_step)
       on_step(spare, interval.size);
     return report;
   }
 
   SolveReport
-  Problem::make_step(const StepInterval &interval, bool &gains_energy)
+  Problem::solve_step(const StepInterval &interval, bool &gains_energy)
   {
     constraints.handles.begin_step(state.time, state.positions);
     State &next = spare;

@@ -259,6 +259,7 @@ namespace Exemplar
                                                     [](const auto &term) { return term->has_settled(); });
     if (!all_settled && n_unsettled++ == 0)
       first_unsettled = problem.state.step;
+    add_displacement();
     const unsigned int n_cells = problem.evaluation.elastic.inverted_cells;
     if (n_cells == 0)
       return;
@@ -272,6 +273,19 @@ namespace Exemplar
       return;
     inversions.n_cells    = n_cells;
     inversions.worst_step = problem.state.step;
+  }
+
+  void
+  StateReview::add_displacement()
+  {
+    if (problem.actions.obstacles == nullptr && problem.actions.body_contacts == nullptr)
+      return;
+    const Vector &velocities = problem.state.velocities; // empty in statics
+    const double  distance
+        = problem.body.exchange().max(max_entry(velocities.begin(), velocities.end()))
+          * problem.time_axis.step_size(problem.state.step);
+    if (distance > farthest.distance)
+      farthest = { problem.state.step, distance };
   }
 
   std::vector<std::string>
@@ -301,6 +315,11 @@ namespace Exemplar
           n_unsettled, n_unsettled == 1 ? "step" : "steps", first_unsettled,
           allowed_change(problem), ObstacleTerm::max_renewals,
           has_friction_of_obstacles(problem) ? ", or a greater Lag tolerance" : ""));
+    if (farthest.distance > 0.5 * problem.body.mesh.diameter())
+      all.push_back(fmt::format(
+          "The body moved by {} m in step {}, more than half of its size. It may pass around an "
+          "obstacle or another body in such a step. Take smaller steps (Time/Step).",
+          short_text(farthest.distance), farthest.step));
     for (const auto &warning : { describe_stretched(problem), describe_turned(problem),
                                  describe_miss(problem), describe_crushed(problem) })
       if (warning)

@@ -168,24 +168,28 @@ namespace Exemplar::Testing
                "subsection Solver\n set Method = newton\nend\n";
     }
 
-    /// The notes of the audit on a run that gets a gift at half of the time.
-    std::string
-    notes_with_gift(const double energy, const std::string &kind)
+    /// The failure of a run that gets a gift at half of the time, and the last step that it made.
+    std::pair<std::string, unsigned int>
+    failure_with_gift(const double energy, const std::string &kind)
     {
       Scene scene(dragged(kind));
       scene.problem.add_term(
           [=] { return std::make_unique<Gift>(energy, kind == "static" ? .5 : .2); });
-      for (unsigned int step = 0; step < 8; ++step)
-        EXPECT_TRUE(is_success(scene.problem.advance().status)) << kind << step;
-      return scene.problem.get_audit()->notes();
+      SolveReport report;
+      for (unsigned int step = 0; step < 8 && (step == 0 || is_success(report.status)); ++step)
+        report = scene.problem.advance();
+      return { report.failure, scene.problem.state.step };
     }
 
-    TEST(EnergyAudit, AStepThatIsGivenEnergyIsNoted)
+    TEST(EnergyAudit, AStepThatIsGivenEnergyFails)
     {
       for (const std::string kind : { "static", "dynamic" })
       {
-        expect_contains(notes_with_gift(1., kind), "once, first after step 0: add_term()");
-        expect_contains(notes_with_gift(1e6, kind), "2 times, first after step 0: add_term()");
+        EXPECT_EQ(failure_with_gift(1., kind), std::make_pair(std::string(), 8u)) << kind;
+        const auto [failure, last_step] = failure_with_gift(1e6, kind);
+        expect_contains(failure, "the stored energy ");
+        expect_contains(failure, kind == "static" ? "1e+06 J" : "Take smaller steps");
+        EXPECT_EQ(last_step, 4u) << kind;
       }
     }
 

@@ -294,10 +294,10 @@ namespace Exemplar
     void
     count_change(const std::string &what);
 
-    /// advance() for held nodes and events of sessions that are those of the step. `gains_energy`: whether the audit of
-    /// energies has refused it.
+    /// make_step() for held nodes and session events that are those of the step. Sets `gains_energy` if the energy audit
+    /// does not accept the solution.
     SolveReport
-    make_step(const StepInterval &interval, bool &gains_energy);
+    solve_step(const StepInterval &interval, bool &gains_energy);
 
     /// Turn a report on the step to `next` into a failure if the audit of energies refuses it. Returns whether it does.
     bool
@@ -307,7 +307,8 @@ namespace Exemplar
     bool
     has_parts(const StepInterval &interval) const;
 
-    /// Make an increment that the audit has refused, with this report, again in parts, whose work is known better.
+    /// Repeat an increment that the audit did not accept in parts, whose work is known better. Returns `refused`, the
+    /// report of the whole increment, if no number of parts is accepted.
     SolveReport
     make_step_in_parts(const StepInterval &interval, const SolveReport &refused);
     /// The obstacle of this name. Throws UserError if there is none.

@@ -33,8 +33,20 @@ namespace Exemplar
       std::vector<std::size_t> elements;    ///< in the first step
     };
 
+    /// The greatest displacement of a node along an axis in one step.
+    struct Farthest
+    {
+      unsigned int step     = 0;
+      double       distance = 0.; ///< [m]
+    };
+
+    /// With contact, keep the greatest displacement of a step.
+    void
+    add_displacement();
+
     const Problem &problem;
     Inversions     inversions;
+    Farthest       farthest;
     unsigned int   first_raised    = 0; ///< first step with loads raised in parts; 0: none
     unsigned int   first_unsettled = 0, n_unsettled = 0; ///< steps whose friction has not settled
   };
