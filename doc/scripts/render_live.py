@@ -5,6 +5,7 @@ Usage: python3 doc/scripts/render_live.py
 It needs Debian's chromium, chromium-driver and python3-selenium.
 Environment: EXEMPLAR, the program.
 """
+import os
 import sys
 import tempfile
 import time
@@ -14,11 +15,12 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
 TOP = Path(__file__).resolve().parents[2]
+os.environ.setdefault("SCREENSHOTS", "")  # live_browser.py then takes all pixels
 sys.path.insert(0, str(TOP / "tests/live"))
 from live_browser import browser  # noqa: E402
 from live_server import Server  # noqa: E402
 
-PLACE = (15, -15)  # of the back, from the middle of the canvas [pixels]
+PLACE = (12, -12)  # of the back, from the middle of the canvas [pixels]
 STEPS = 12  # of the way of the pointer, upwards
 
 
@@ -41,11 +43,11 @@ def main():
             page.get(f"http://{server.host}/?token={server.token}")
             wait_for(page, .5)
             canvas = page.find_element("id", "canvas")
-            page.execute_script("for (let i = 0; i < 3; ++i) arguments[0].dispatchEvent(new WheelEvent('wheel', { deltaY: 100 }));", canvas)
+            page.execute_script("for (let i = 0; i < 5; ++i) arguments[0].dispatchEvent(new WheelEvent('wheel', { deltaY: 100 }));", canvas)
             hand = ActionChains(page, duration=20)
             hand.move_to_element_with_offset(canvas, *PLACE).click_and_hold()
             for _ in range(STEPS):
-                hand.move_by_offset(4, -16)
+                hand.move_by_offset(4, -13)
             hand.perform()
             wait_for(page, 2.5)
             page.find_element("id", "pause").send_keys(Keys.SPACE)  # the strip is then that of no machine

@@ -116,9 +116,11 @@ namespace Exemplar
     for (const std::string &path : files)
     {
       if (is_surface_file(path))
-        throw UserError("Mesh/Files: " + path
-                        + " is a surface. Fill it with cells, exemplar mesh --surface " + path
-                        + " --cells N --output FILE.msh, and name the .msh.");
+        throw UserError("Mesh/Files: " + path + " is a surface. "
+                        + (kind == MeshKind::shell
+                               ? "A shell is one surface: name it in Mesh/File."
+                               : "Fill it with cells, exemplar mesh --surface " + path
+                                     + " --cells N --output FILE.msh, and name the .msh."));
       if (std::filesystem::path(path).extension() == ".geo")
         throw UserError("Mesh/Files: " + path + " is a geometry. Mesh it, gmsh -3 " + path
                         + ", and name the .msh.");

@@ -2,6 +2,7 @@
 #include <exemplar/surface/filling/cell_angles.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -13,6 +14,8 @@ namespace Exemplar
     constexpr double poor_angle = 8.;
     /// Two boundary faces at a flatter angle are nearly one plane: their edge may be flipped.
     constexpr double flat_angle = 165.;
+    /// How far a boundary node may be moved, over the length of its shortest boundary edge.
+    constexpr double farthest_on_boundary = 0.05;
 
     using Triangle = std::array<unsigned int, 3>;
     using Edge     = std::array<unsigned int, 2>;
@@ -33,8 +36,9 @@ namespace Exemplar
     class SliverRemoval
     {
     public:
-      explicit SliverRemoval(TetrahedralMesh &m)
-          : mesh(m), cells_around(m.nodes.size()), on_boundary(m.nodes.size(), false),
+      SliverRemoval(TetrahedralMesh &m, const BoundaryNodes boundary_nodes)
+          : mesh(m), boundary_nodes(boundary_nodes), nodes_before(m.nodes),
+            cells_around(m.nodes.size()), on_boundary(m.nodes.size(), false),
             gone(m.cells.size(), false)
       {
         for (std::size_t c = 0; c < mesh.cells.size(); ++c)
@@ -55,7 +59,11 @@ namespace Exemplar
           bool moved = false;
           for (const std::size_t cell : poor)
             for (const unsigned int node : mesh.cells[cell])
-              moved = (!gone[cell] && !on_boundary[node] && improve(node)) || moved;
+              moved = (!gone[cell] && !on_boundary[node]
+                       && improve(node, std::numeric_limits<double>::infinity()))
+                      || moved;
+          if (boundary_nodes == BoundaryNodes::moved_slightly)
+            moved = improve_on_boundary() || moved;
           if (!moved)
             break;
         }
@@ -85,6 +93,60 @@ namespace Exemplar
         return poor;
       }
 
+      /// Move the boundary nodes of slivers slightly, except those on planes, which selections may name.
+      bool
+      improve_on_boundary()
+      {
+        bool moved = false;
+        for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+          for (const unsigned int node : mesh.cells[c])
+          {
+            if (gone[c] || dihedral_angles(corners_of(mesh, c)).first >= sliver_angle)
+              break;
+            if (on_boundary[node] && !is_on_plane(node))
+              moved = improve(node, farthest_on_boundary * shortest_boundary_edge(node)) || moved;
+          }
+        return moved;
+      }
+
+      std::vector<unsigned int>
+      boundary_triangles_around(const unsigned int node) const
+      {
+        std::vector<unsigned int> around;
+        for (unsigned int t = 0; t < mesh.boundary.triangles.size(); ++t)
+        {
+          const Triangle &nodes = mesh.boundary.triangles[t];
+          if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
+            around.push_back(t);
+        }
+        return around;
+      }
+
+      /// Whether two boundary triangles at a node are in one plane.
+      bool
+      is_on_plane(const unsigned int node) const
+      {
+        constexpr double              rounding = 1e-6;
+        const std::vector<unsigned int> around = boundary_triangles_around(node);
+        for (std::size_t i = 0; i < around.size(); ++i)
+          for (std::size_t j = 0; j < i; ++j)
+            if (angle_between(around[i], around[j]) < rounding)
+              return true;
+        return false;
+      }
+
+      double
+      shortest_boundary_edge(const unsigned int node) const
+      {
+        double shortest = std::numeric_limits<double>::infinity();
+        for (const unsigned int t : boundary_triangles_around(node))
+          for (const unsigned int other : mesh.boundary.triangles[t])
+            if (other != node)
+              shortest
+                  = std::min(shortest, norm(minus(nodes_before[other], nodes_before[node])));
+        return shortest;
+      }
+
       /// The smallest dihedral angle of the cells around a node [degrees]; negative if one of them
       /// is not of positive volume.
       double
@@ -101,12 +163,12 @@ namespace Exemplar
         return worst;
       }
 
-      /// Moves a node by a search along the axes, with shorter and shorter steps.
+      /// Moves a node by a search along the axes, with shorter and shorter steps, at most so far from its first place.
       bool
-      improve(const unsigned int node)
+      improve(const unsigned int node, const double farthest)
       {
         const auto   cell   = corners_of(mesh, cells_around[node].front());
-        double       step   = .2 * norm(minus(cell[1], cell[0]));
+        double       step   = std::min(.2 * norm(minus(cell[1], cell[0])), farthest);
         const double before = worst_around(node);
         double       best   = before;
         for (unsigned int round = 0; round < 12; ++round)
@@ -117,7 +179,7 @@ namespace Exemplar
             const double old = mesh.nodes[node][way / 2];
             mesh.nodes[node][way / 2] += way % 2 == 0 ? step : -step;
             const double now = worst_around(node);
-            if (now > best)
+            if (now > best && norm(minus(mesh.nodes[node], nodes_before[node])) <= farthest)
               best = now;
             else
               mesh.nodes[node][way / 2] = old;
@@ -167,8 +229,9 @@ namespace Exemplar
         gone[cell] = true;
       }
 
-      bool
-      is_flat(const unsigned int first, const unsigned int other) const
+      /// Between the normals of two boundary triangles [rad].
+      double
+      angle_between(const unsigned int first, const unsigned int other) const
       {
         const auto normal = [&](const unsigned int t)
         {
@@ -177,8 +240,13 @@ namespace Exemplar
                        minus(mesh.nodes[n[2]], mesh.nodes[n[0]]));
         };
         const SpaceVector a = normal(first), b = normal(other);
-        const double      angle = std::atan2(norm(cross(a, b)), dot(a, b));
-        return angle * 180. / std::acos(-1.) < 180. - flat_angle;
+        return std::atan2(norm(cross(a, b)), dot(a, b));
+      }
+
+      bool
+      is_flat(const unsigned int first, const unsigned int other) const
+      {
+        return angle_between(first, other) * 180. / std::acos(-1.) < 180. - flat_angle;
       }
 
       /// `first` has the corner c and `other` has d; both share the edge that goes.
@@ -217,6 +285,8 @@ namespace Exemplar
       }
 
       TetrahedralMesh                      &mesh;
+      const BoundaryNodes                   boundary_nodes;
+      const std::vector<SpaceVector>        nodes_before;
       std::vector<std::vector<std::size_t>> cells_around;
       std::vector<bool>                     on_boundary;
       std::vector<bool>                     gone;
@@ -226,8 +296,8 @@ namespace Exemplar
   } // namespace
 
   std::size_t
-  remove_slivers(TetrahedralMesh &mesh)
+  remove_slivers(TetrahedralMesh &mesh, const BoundaryNodes boundary_nodes)
   {
-    return SliverRemoval(mesh).run();
+    return SliverRemoval(mesh, boundary_nodes).run();
   }
 } // namespace Exemplar

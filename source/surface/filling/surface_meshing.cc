@@ -295,7 +295,7 @@ namespace Exemplar
           {
             FilledSurface filled
                 = fill_with(surface, n_cells, keep_edges, near_sheets, gaps, options);
-            remove_slivers(filled.mesh);
+            remove_slivers(filled.mesh, BoundaryNodes::moved_slightly);
             const Judgement now = judge(body, filled.mesh);
             if (is_better(now, best))
               best = { std::move(filled.mesh), now };

@@ -293,7 +293,7 @@ namespace Exemplar
                             "ask for another number of cells.");
       for (std::size_t i = 0; i < x.size(); ++i)
         mesh.nodes[i] = { { x[i][0], x[i][1], x[i][2] } };
-      remove_slivers(mesh);
+      remove_slivers(mesh, BoundaryNodes::kept); // sheets that touch must not cross
     }
   } // namespace
 

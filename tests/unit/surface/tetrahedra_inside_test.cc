@@ -116,7 +116,7 @@ namespace Exemplar::Testing
       TetrahedralMesh mesh   = mesh_with_sliver();
       CellAngles      angles = measure_angles(mesh);
       EXPECT_EQ(angles.n_boundary_slivers, 1U);
-      EXPECT_EQ(remove_slivers(mesh), 1U);
+      EXPECT_EQ(remove_slivers(mesh, BoundaryNodes::kept), 1U);
       angles = measure_angles(mesh);
       EXPECT_EQ(angles.n_slivers, 0U);
       EXPECT_EQ(mesh.cells.size(), 2U);
@@ -130,7 +130,32 @@ namespace Exemplar::Testing
     {
       TetrahedralMesh mesh    = mesh_with_sliver();
       mesh.boundary.groups[5] = 1;
-      EXPECT_EQ(remove_slivers(mesh), 0U);
+      EXPECT_EQ(remove_slivers(mesh, BoundaryNodes::kept), 0U);
+      EXPECT_EQ(measure_angles(mesh).n_slivers, 1U);
+    }
+
+    TEST(Slivers, BoundaryNodesMoveSlightly)
+    {
+      TetrahedralMesh mesh    = mesh_with_sliver();
+      mesh.boundary.groups[5] = 1;
+      const auto before       = mesh.nodes;
+      EXPECT_EQ(remove_slivers(mesh, BoundaryNodes::moved_slightly), 0U);
+      EXPECT_EQ(measure_angles(mesh).n_slivers, 0U);
+      for (std::size_t i = 0; i < before.size(); ++i)
+        EXPECT_LE(norm(minus(mesh.nodes[i], before[i])), 0.0501);
+    }
+
+    /// The same cells with a level base, whose nodes a selection may name.
+    TEST(Slivers, NodesOnPlanesStay)
+    {
+      TetrahedralMesh mesh = mesh_with_sliver();
+      for (unsigned int i = 0; i < 4; ++i)
+        mesh.nodes[i][2] = i % 2 == 0 ? 0. : -1e-9;
+      mesh.boundary.groups[5] = 1;
+      const auto before       = mesh.nodes;
+      remove_slivers(mesh, BoundaryNodes::moved_slightly);
+      for (const unsigned int i : { 0U, 2U })
+        EXPECT_EQ(mesh.nodes[i], before[i]);
     }
   } // namespace
 } // namespace Exemplar::Testing

@@ -29,12 +29,19 @@ namespace Exemplar
   CellAngles
   measure_angles(const TetrahedralMesh &mesh);
 
-  /// Move inner nodes of cells with angles below 8 degrees to where the worst cell around them is
-  /// better, and take away flat cells that lie on the boundary with two faces, which flips the edge
-  /// between these. A node or cell is left alone where that helps nothing. Returns the number of
-  /// cells taken away.
+  /// What remove_slivers() may do with boundary nodes.
+  enum class BoundaryNodes
+  {
+    kept,
+    moved_slightly ///< by 5 % of their shortest boundary edge, if they belong to slivers and to no plane
+  };
+
+  /// Move inner nodes of cells with angles below 8 degrees to places where the worst cell around them is
+  /// better, and remove flat cells that have two faces on the boundary, which flips the edge
+  /// between these. Nodes and cells for which this has no effect are kept. Returns the number of
+  /// cells removed.
   std::size_t
-  remove_slivers(TetrahedralMesh &mesh);
+  remove_slivers(TetrahedralMesh &mesh, BoundaryNodes boundary_nodes);
 } // namespace Exemplar
 
 #endif
