@@ -15,7 +15,7 @@ namespace Exemplar
     /// Two boundary faces at a flatter angle are nearly one plane: their edge may be flipped.
     constexpr double flat_angle = 165.;
     /// How far a boundary node may be moved, over the length of its shortest boundary edge.
-    constexpr double farthest_on_boundary = 0.05;
+    constexpr double farthest_on_boundary = 0.1;
 
     using Triangle = std::array<unsigned int, 3>;
     using Edge     = std::array<unsigned int, 2>;
@@ -126,8 +126,8 @@ namespace Exemplar
       bool
       is_on_plane(const unsigned int node) const
       {
-        constexpr double              rounding = 1e-6;
-        const std::vector<unsigned int> around = boundary_triangles_around(node);
+        constexpr double                rounding = 1e-6;
+        const std::vector<unsigned int> around   = boundary_triangles_around(node);
         for (std::size_t i = 0; i < around.size(); ++i)
           for (std::size_t j = 0; j < i; ++j)
             if (angle_between(around[i], around[j]) < rounding)
@@ -142,8 +142,7 @@ namespace Exemplar
         for (const unsigned int t : boundary_triangles_around(node))
           for (const unsigned int other : mesh.boundary.triangles[t])
             if (other != node)
-              shortest
-                  = std::min(shortest, norm(minus(nodes_before[other], nodes_before[node])));
+              shortest = std::min(shortest, norm(minus(nodes_before[other], nodes_before[node])));
         return shortest;
       }
 

@@ -33,7 +33,7 @@ namespace Exemplar
   enum class BoundaryNodes
   {
     kept,
-    moved_slightly ///< by 5 % of their shortest boundary edge, if they belong to slivers and to no plane
+    moved_slightly ///< by 10 % of their shortest boundary edge, if they belong to slivers and to no plane
   };
 
   /// Move inner nodes of cells with angles below 8 degrees to places where the worst cell around them is
