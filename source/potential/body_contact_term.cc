@@ -157,12 +157,7 @@ namespace Exemplar
                     rubs->normal_before = rubs->gap.normal * motion->rotation;
                   fresh.push_back(*rubs);
                 });
-    const auto [greatest, change] = force_and_change_of(fresh, step.rubbing);
-    if (change <= lag_tolerance * greatest)
-      return TermChange::none;
-    ++step.n_renewals;
-    step.rubbing = std::move(fresh);
-    return TermChange::values;
+    return renew_friction(std::move(fresh), lag_tolerance, step);
   }
 
   SpaceVector3
@@ -215,7 +210,9 @@ namespace Exemplar
   void
   BodyContactTerm::leave_step()
   {
-    step = {};
+    const unsigned int n_renewals = step.n_renewals; // by which has_settled() answers
+    step                          = {};
+    step.n_renewals               = n_renewals;
   }
 
   void

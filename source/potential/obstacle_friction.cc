@@ -69,17 +69,8 @@ namespace Exemplar
   {
     if (!have_friction || !step.has_begun || step.n_renewals > max_renewals)
       return TermChange::none;
-    std::vector<Rubbing> fresh            = rubbing_at(at.positions);
-    const auto [own_greatest, own_change] = force_and_change_of(fresh, step.rubbing);
-    const double greatest                 = free_dofs->exchange().max(own_greatest);
-    const double change                   = free_dofs->exchange().max(own_change);
     ++step.n_looks;
-    step.greatest_force = greatest;
-    if (change <= obstacles.lag_tolerance * greatest)
-      return TermChange::none;
-    ++step.n_renewals;
-    step.rubbing = std::move(fresh);
-    return TermChange::values;
+    return renew_friction(rubbing_at(at.positions), obstacles.lag_tolerance, step);
   }
 
   SpaceVector3

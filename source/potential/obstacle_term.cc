@@ -65,6 +65,7 @@ namespace Exemplar
   void
   ObstacleTerm::set_time(const double new_time)
   {
+    step.restart();
     move_to(new_time);
   }
 
@@ -179,7 +180,7 @@ namespace Exemplar
     follow_times(at);
     found.positions.reinit(0);
     step.rubbing.clear();
-    step.n_renewals     = 0;
+    step.restart();
     step.n_looks        = 0;
     step.greatest_force = 0.;
     if (have_friction)

@@ -11,6 +11,9 @@ namespace Exemplar
 {
   namespace
   {
+    /// Renewals without acceleration. Most steps settle by these, of which the first ones begin where the step is not solved yet.
+    constexpr unsigned int n_plain_renewals = 8;
+
     /// Derivative of a barrier's energy by the gap [N].
     double
     slope_of(const Gap &gap)
@@ -69,6 +72,24 @@ namespace Exemplar
       return {};
     const double force = -slope_of(gap);
     return Rubbing{ touch.obstacle, key, gap, force, coefficient, {}, {}, {}, {} };
+  }
+
+  TermChange
+  TouchingTerm::renew_friction(std::vector<Rubbing> now,
+                               const double         tolerance,
+                               RubbingStep         &step) const
+  {
+    const Exchange &exchange              = free_dofs->exchange();
+    const auto [own_greatest, own_change] = force_and_change_of(now, step.rubbing);
+    const double change                   = exchange.max(own_change);
+    step.greatest_force                   = exchange.max(own_greatest);
+    if (change <= tolerance * step.greatest_force)
+      return TermChange::none;
+    ++step.n_renewals;
+    if (step.n_renewals > n_plain_renewals)
+      step.lag.accelerate(step.rubbing, now, exchange);
+    step.rubbing = std::move(now);
+    return TermChange::values;
   }
 
   void

@@ -178,6 +178,8 @@ True)" },
 {})" },
       { "Problem.add_obstacle",
         R"(>>> problem.add_obstacle("step", "box 0 -1 -1  1 1 -0.3", friction=0.5)  # doctest: +SKIP)" },
+      { "Problem.friction_settled", R"(>>> problem.friction_settled
+True)" },
       { "Problem.contact_forces", R"(>>> abs(problem.contact_forces).max()
 0.0)" },
       { "Problem.plot", R"(>>> axes = problem.plot(problem.det_F))" },

@@ -5,6 +5,7 @@
 #include <exemplar/python/held_problem.h>
 #include <exemplar/python/module_parts.h>
 #include <exemplar/run/problem/obstacle_start.h>
+#include <exemplar/run/problem/state_review.h>
 
 #include <fmt/core.h>
 
@@ -144,6 +145,11 @@ namespace Exemplar::Python
     refuse_other_arguments(problem, "add_obstacle",
                            "add_obstacle is called as add_obstacle(name, shape, motion=..., "
                            "turn=..., friction=...).");
+    problem.def_property_readonly(
+        "friction_settled",
+        [](const HeldProblem &held) { return friction_has_settled(held.get()); },
+        "False if the normal forces of friction in the last step are not those of its end, to\n"
+        "Obstacles/Lag tolerance. True without friction.");
     problem.def_property_readonly("contact_forces", &contact_forces,
                                   "Forces (n, 3) [N] on the nodes by all obstacles and, with "
                                   "Contact/Self or Bodies, by the body itself,\n"

@@ -222,18 +222,21 @@ namespace Exemplar
     if (trial.linearization.factor == system.n_factorizations()
         && has_residual(nearly_linear, trial.state, evaluation))
       go_on_with_same_factor(trial.state, evaluation);
+    unsigned int last = max_iterations;
     for (unsigned int iteration = 0;; ++iteration)
     {
       const bool is_solved = potential.gap_width() > 0.
                              && has_residual(parameters.tolerance, trial.state, evaluation);
       const bool is_same = potential.renew(trial.state, evaluation, is_solved) == TermChange::none;
+      if (is_solved && !is_same)
+        last = iteration + max_iterations; // another solution begins, with other friction
       const bool goes_on = report_iteration(potential, evaluation, trial.state, report);
       const bool is_met  = is_same && has_met(parameters.tolerance, report);
-      if (is_met && (iteration == max_iterations || is_placed(trial.state, evaluation)))
+      if (is_met && (iteration == last || is_placed(trial.state, evaluation)))
         report.status = SolveStatus::converged;
       else if (!goes_on)
         throw Interrupted("Interrupted.");
-      else if (iteration == max_iterations)
+      else if (iteration == last)
         report.status = SolveStatus::iteration_limit;
       else
         take_step(trial, evaluation, report);

@@ -18,7 +18,7 @@ namespace Exemplar
     constexpr unsigned int max_metrics            = 2;  ///< that a step may ask for
     constexpr unsigned int max_short_metrics
         = 12; ///< the same, of bodies that do not keep their tangent
-    constexpr unsigned int max_changes  = 30; ///< of terms in a step
+    constexpr unsigned int max_changes  = 60; ///< of terms in a step
     constexpr unsigned int max_halvings = 5;
     /// So often what terms lag is renewed before a step is solved. Without a bound it jumps to and fro as the positions do,
     /// and neither settles.

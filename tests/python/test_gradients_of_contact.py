@@ -218,6 +218,58 @@ class Differences(AgainstDifferences, unittest.TestCase):
         self.assertLess(abs(found - expected), 1e-6 * abs(expected), (found, expected))
 
 
+class AtTheDefaultSlipSpeed(unittest.TestCase):
+    """Cubes of 0.08 m that begin on a floor, and one that two boxes grip and lift: gradients by friction and by the modulus of each cell."""
+    KEYS = {"Scene": "dynamic", "Mesh": {"Generator": "box", "Box size": [0.08] * 3, "Box cells": [2] * 3},
+            "Material": {"Young's modulus": 2e5, "Poisson's ratio": 0.3}, "Loads": {"Gravity": [0, 0, -9.81]},
+            "Solver": {"Tolerance": 1e-12, "Step tolerance": 1e-11}}
+
+    def states(self, base, friction=0.4, young=0.):
+        boxes = {name: {**of, "Friction": friction} for name, of in base["Obstacles"].items()}
+        problem = exemplar.Problem(scene(base, Obstacles={"Names": ", ".join(boxes), "Lag tolerance": 1e-10, **boxes}))
+        problem.set_material(young=problem.young + young)
+        settled = []
+        with problem.record() as trajectory:
+            for _ in range(self.n_steps):
+                problem.step()
+                settled.append(problem.friction_settled)
+        self.assertTrue(all(settled), settled)
+        return trajectory
+
+    def check(self, base, by_positions):
+        trajectory = self.states(base)
+        found = trajectory.vjp([None] * (self.n_steps - 1) + [by_positions])
+        value = lambda **changes: (by_positions * self.states(base, **changes).positions[-1]).sum()
+        along = np.random.default_rng(5).uniform(-2e4, 2e4, len(found["young"]))
+        of_friction = np.array([0.4 * found["obstacles"][one]["friction"] for one in base["Obstacles"]])
+        for name, parts, at, direction in (("friction", of_friction, 0.4, 0.4), ("young", found["young"] * along, 0 * along, along)):
+            errors = []
+            for step in 2e-3, 5e-2, 1e-2, 3e-4, 4e-5:
+                expected = difference(lambda x, name=name: value(**{name: x}), at, direction, step)
+                errors.append(abs(parts.sum() - expected) / max(abs(expected), np.linalg.norm(parts)))
+                if errors[-1] < 1e-6:
+                    break
+            with self.subTest(by=name):
+                self.assertLess(min(errors), 1e-6, (parts.sum(), expected, errors))
+
+    def test_what_begins_on_the_floor(self):
+        """The mean place of a cube that slides depends on forces that are far smaller than those of barriers, which friction feels."""
+        self.n_steps = 8
+        for method, speed, slope in (("newton", 1.2, 0), ("quasi newton", 0, 5), ("newton", 0, 1)):
+            with self.subTest(method, speed=speed, slope=slope):
+                base = scene(self.KEYS, Initial={"Velocity": f"{speed}; 0; 0"}, Loads={"Gravity": [slope, 0, -9.81]}, Solver={"Method": method},
+                             Time={"Step": 0.004, "End": 1}, Obstacles={"floor": {"Shape": "plane 0 0 -0.04 0 0 1"}})
+                self.check(base, np.tile([1 / 27, 0, 0], (27, 1)))
+
+    def test_what_is_gripped_and_lifted(self):
+        self.n_steps = 20
+        way, lift = "0.005*min(t/0.06,1)", "0.15*max(t-0.06,0)"
+        boxes = {"left": {"Shape": "box -0.2 -0.1 -0.1  -0.0004 0.1 0.2", "Motion": f"{way}; 0; {lift}"},
+                 "right": {"Shape": "box 0.0804 -0.1 -0.1  0.3 0.1 0.2", "Motion": f"-{way}; 0; {lift}"}}
+        base = scene(self.KEYS, Time={"Step": 0.01, "End": 1}, Obstacles=boxes)
+        self.check(base, np.random.default_rng(6).normal(size=(27, 3)))
+
+
 class Answers(unittest.TestCase):
     def test_one_equilibrium(self):
         """problem.vjp() and the trajectory's are the same."""
@@ -276,8 +328,22 @@ class Refusals(unittest.TestCase):
                 ask(NODES)
 
     def test_friction_that_has_not_settled(self):
-        with self.assertRaisesRegex(exemplar.UserError, "ends in no equilibrium of its forces .* as friction is found again twenty times"):
-            Case(STATIC, SHAPES["surface"], friction=0.4, moves=False)
+        """To rounding it does not settle; the tolerance that the message names is one with which it does."""
+        def steps(tolerance):
+            keys = AtTheDefaultSlipSpeed.KEYS
+            problem = exemplar.Problem(scene(keys, Time={"Step": 0.004, "End": 1}, Initial={"Velocity": "1.2; 0; 0"}, Obstacles={
+                "Lag tolerance": tolerance, "Names": "floor", "floor": {"Shape": "plane 0 0 -0.04 0 0 1", "Friction": 0.4}}))
+            with problem.record() as trajectory:
+                settled = [(problem.step(), problem.friction_settled)[1] for _ in range(6)]
+            return settled, lambda: trajectory.vjp([None] * 5 + [problem.positions])
+        settled, vjp = steps(1e-14)
+        self.assertIn(False, settled)
+        with self.assertRaisesRegex(exemplar.UserError, f"friction had not settled in {settled.count(False)} of 6 steps, first in step "
+                                    f"{settled.index(False)}, counted from 0, .* Set Obstacles/Lag tolerance to 1e-10 or more"):
+            vjp()
+        settled, vjp = steps(1e-10)
+        self.assertTrue(all(settled))
+        vjp()
 
 
 if __name__ == "__main__":

@@ -61,6 +61,12 @@ namespace Exemplar
     void
     leave_step() override;
 
+    void
+    set_time(double /*time*/) override
+    {
+      step.restart();
+    }
+
     double
     gap_width() const override
     {

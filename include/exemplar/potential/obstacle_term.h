@@ -145,11 +145,10 @@ namespace Exemplar
     /// What of the term belongs to the step that has begun.
     struct Step : RubbingStep
     {
-      Vector               start;        ///< positions where it begins
-      std::vector<char>    there;        ///< whether each obstacle is there; empty: all are
-      std::vector<Earlier> earlier;      ///< empty without friction
-      unsigned int         n_looks = 0;  ///< how often renew() has been called
-      double greatest_force        = 0.; ///< of the contacts with friction at the last look [N]
+      Vector               start;       ///< positions where it begins
+      std::vector<char>    there;       ///< whether each obstacle is there; empty: all are
+      std::vector<Earlier> earlier;     ///< empty without friction
+      unsigned int         n_looks = 0; ///< how often renew() has been called
     };
 
     const Step &

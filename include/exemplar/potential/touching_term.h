@@ -6,6 +6,7 @@
 #include <exemplar/obstacles/contact_surface.h>
 #include <exemplar/potential/contact_forces.h>
 #include <exemplar/potential/contact_slopes.h>
+#include <exemplar/potential/friction_lag.h>
 #include <exemplar/potential/potential_term.h>
 
 #include <functional>
@@ -64,7 +65,7 @@ namespace Exemplar
     Vector
     forces(const Vector &positions) const;
 
-    static constexpr unsigned int max_renewals = 20; ///< of what rubs in a step
+    static constexpr unsigned int max_renewals = 40; ///< of what rubs in a solution of a step
 
     /// What of friction belongs to the step that has begun.
     struct RubbingStep
@@ -75,6 +76,16 @@ namespace Exemplar
       double               rate = 0.; ///< gamma of the time scheme, or one over the step [1/s]
       std::vector<Rubbing> rubbing;   ///< since the last renewal, ascending
       unsigned int         n_renewals = 0;
+      double      greatest_force      = 0.; ///< of the contacts with friction at the last look [N]
+      FrictionLag lag;
+
+      /// Another solution of the step begins, as after one that failed.
+      void
+      restart()
+      {
+        n_renewals = 0;
+        lag.clear();
+      }
     };
 
   protected:
@@ -144,6 +155,11 @@ namespace Exemplar
     /// What would rub at a touch, if anything: without what the obstacle adds.
     static std::optional<Rubbing>
     rubbing_of(const Touch &touch, PairKey key, double coefficient);
+
+    /// What rubs at the end of a solution, in ascending order, rubs in the next one, unless no normal force differs by more than this
+    /// part of the greatest. All processes must call this.
+    TermChange
+    renew_friction(std::vector<Rubbing> now, double tolerance, RubbingStep &step) const;
 
     /// Tell a step from where slips count, which begins at this state; its size must be known.
     void

@@ -51,7 +51,7 @@ namespace Exemplar
     bool
     has_settled() const override
     {
-      return n_renewals <= TouchingTerm::max_renewals;
+      return n_renewals <= max_renewals;
     }
 
     std::vector<unsigned int>
@@ -124,6 +124,8 @@ namespace Exemplar
     /// The greatest force of a spring, of all processes [N].
     double
     greatest_force(const Vector &positions) const;
+
+    static constexpr unsigned int max_renewals = 20; ///< of the anchors in a step
 
     const FreeBodies                kind;
     const double                    size;

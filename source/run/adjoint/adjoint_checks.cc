@@ -199,8 +199,7 @@ namespace Exemplar
                                   step, value, bound,
                                   has_friction(problem)
                                       ? "Solver/Step tolerance, Tolerance, or Obstacles/Lag "
-                                        "tolerance, or take smaller steps, as friction is found "
-                                        "again twenty times at most"
+                                        "tolerance"
                                       : "Solver/Step tolerance, or Tolerance"));
   }
 } // namespace Exemplar

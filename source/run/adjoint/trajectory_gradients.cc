@@ -7,6 +7,7 @@
 #include <exemplar/run/adjoint/slope_of_contact.h>
 #include <exemplar/run/adjoint/slope_of_motion.h>
 #include <exemplar/run/adjoint/trajectory_gradients.h>
+#include <exemplar/run/problem/state_review.h>
 
 #include <fmt/core.h>
 
@@ -327,6 +328,20 @@ namespace Exemplar
       double                               by_mass_damping = 0., by_stiffness_damping = 0.;
       TrajectoryGradients                  result;
     };
+    /// Throws UserError for steps whose friction had not settled.
+    void
+    require_settled(const Problem &problem, const RecordedSteps &steps)
+    {
+      std::vector<unsigned int> unsettled;
+      for (unsigned int i = 0; i < steps.size(); ++i)
+        if (!steps.step(i).friction_settled)
+          unsettled.push_back(i);
+      if (!unsettled.empty())
+        throw UserError(fmt::format(
+            "vjp: friction had not settled in {} of {} steps, first in step {}, counted from 0, so "
+            "that its forces are not those of the end of the step. {}",
+            unsettled.size(), steps.size(), unsettled.front(), how_to_settle(problem)));
+    }
   } // namespace
 
   RecordedSteps::RecordedSteps(const Problem &problem)
@@ -356,7 +371,7 @@ namespace Exemplar
       broken = "it was changed by " + problem.get_changes().last;
     const State &end = problem.state;
     steps.push_back({ end.time, size, end.positions, end.velocities, end.weights,
-                      problem.actions.held_tensions, end.history });
+                      problem.actions.held_tensions, end.history, friction_has_settled(problem) });
   }
 
   void
@@ -404,6 +419,7 @@ namespace Exemplar
       throw UserError("vjp: no step was recorded. Call step() or run() in the with statement of "
                       "record().");
     steps.require_one_problem(problem);
+    require_settled(problem, steps);
     return Backward(problem, steps, by_states).run();
   }
 } // namespace Exemplar

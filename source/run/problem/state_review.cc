@@ -247,6 +247,30 @@ namespace Exemplar
     }
   } // namespace
 
+  bool
+  friction_has_settled(const Problem &problem)
+  {
+    const PotentialTerms &terms = problem.potential.get_terms();
+    return std::all_of(terms.begin(), terms.end(),
+                       [](const auto &term) { return term->has_settled(); });
+  }
+
+  std::string
+  how_to_settle(const Problem &problem)
+  {
+    constexpr double    least_tolerance = 1e-10; // smaller changes may be rounding
+    const bool          of_obstacles    = has_friction_of_obstacles(problem);
+    const PieceLengths &now             = of_obstacles ? problem.actions.obstacles->slip_speeds
+                                                       : problem.actions.body_contacts->slip_speeds;
+    if (of_obstacles && problem.actions.obstacles->lag_tolerance < least_tolerance)
+      return "Set Obstacles/Lag tolerance to " + shortest_text(least_tolerance)
+             + " or more, as smaller changes may be rounding.";
+    return fmt::format(
+        "Set {}/Slip speed to a greater value, such as {} m/s, which is ten times the "
+        "present one. Where contacts slide, smaller steps help, too.",
+        of_obstacles ? "Obstacles" : "Contact", short_text(10. * now.greatest()));
+  }
+
   StateReview::StateReview(const Problem &problem) : problem(problem) {}
 
   void
@@ -254,10 +278,7 @@ namespace Exemplar
   {
     if (report.load_stages > 0 && first_raised == 0)
       first_raised = problem.state.step;
-    const PotentialTerms &terms       = problem.potential.get_terms();
-    const bool            all_settled = std::all_of(terms.begin(), terms.end(),
-                                                    [](const auto &term) { return term->has_settled(); });
-    if (!all_settled && n_unsettled++ == 0)
+    if (!friction_has_settled(problem) && n_unsettled++ == 0)
       first_unsettled = problem.state.step;
     add_displacement();
     const unsigned int n_cells = problem.evaluation.elastic.inverted_cells;
@@ -309,12 +330,11 @@ namespace Exemplar
               ? "Loads/Ramp = increments raises them over the increments, with frames of the way."
               : "Smaller steps (Time/Step) may avoid it."));
     if (n_unsettled > 0)
-      all.push_back(fmt::format(
-          "Friction had not settled in {} {}, first in step {}: its normal forces changed by more "
-          "than {}, as often as they are renewed in a step, {} times. Take smaller steps{}.",
-          n_unsettled, n_unsettled == 1 ? "step" : "steps", first_unsettled,
-          allowed_change(problem), ObstacleTerm::max_renewals,
-          has_friction_of_obstacles(problem) ? ", or a greater Lag tolerance" : ""));
+      all.push_back(fmt::format("Friction had not settled in {}, first in step {}: its normal "
+                                "forces differ from those of "
+                                "the end of the step by more than {} of the greatest. {}",
+                                counted(n_unsettled, "step"), first_unsettled,
+                                allowed_change(problem), how_to_settle(problem)));
     if (farthest.distance > 0.5 * problem.body.mesh.diameter())
       all.push_back(fmt::format(
           "The body moved by {} m in step {}, more than half of its size. It may pass around an "

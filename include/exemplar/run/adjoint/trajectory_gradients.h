@@ -23,6 +23,7 @@ namespace Exemplar
     std::vector<double> weights;
     std::vector<double> held_tensions; ///< see FibreTensionTerm
     std::vector<double> history;       ///< State::history
+    bool                friction_settled = true;
   };
 
   /// The states of a problem from a first one on, for gradients through its steps.

@@ -51,6 +51,14 @@ namespace Exemplar
     unsigned int   first_unsettled = 0, n_unsettled = 0; ///< steps whose friction has not settled
   };
 
+  /// Whether friction of the last step had settled; it has where there is none.
+  bool
+  friction_has_settled(const Problem &problem);
+
+  /// How to let friction settle, in sentences.
+  std::string
+  how_to_settle(const Problem &problem);
+
   /// At the end of a scene, a warning if missed_example() finds one; else none. All processes must
   /// call this.
   std::vector<std::string>
