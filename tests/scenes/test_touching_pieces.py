@@ -7,6 +7,7 @@ import unittest
 from math import cos, pi, sin
 
 import numpy as np
+from exact_crossings import crossings
 from exemplar_runner import read_csv
 from piece_boxes import Box
 from test_body_contact import FREE, G, BodyContactTest
@@ -111,6 +112,20 @@ class Touching(BodyContactTest):
                              "Handles/base/Select": "box -1 -1 -1  1 1 0.15", "Output/Every": "20"})
         self.assert_apart(output)
         self.assertAlmostEqual(self.top(output), before, delta=0.02 * before)
+
+    def test_a_wall_whose_lowest_bricks_are_held_stands(self):
+        """The held bricks cannot be moved apart; those above them are."""
+        def brick(low, high, level):
+            return Box((low, 0, 0.1 * level), (high, 0.1, 0.1 * (level + 1)), (round((high - low) / 0.1), 1, 1))
+
+        self.write_pieces(*(brick(0.2 * k, 0.2 * (k + 1), 0) for k in range(2)), brick(0, 0.1, 1), brick(0.1, 0.3, 1), brick(0.3, 0.4, 1))
+        output = self.solve({**STACK, "Material/Young's modulus": "1e7", "Contact/Friction": "0.6"})
+        for x, arrays in self.frames(output):
+            piece = {node: self.owners[cell[0]] for cell in np.array(arrays["Cells", "connectivity"]).reshape(len(self.cells), -1)
+                     for node in cell}
+            pairs = {frozenset((piece[edge[0]], piece[triangle[0]])) for edge, triangle in crossings(x, self.triangles)}
+            self.assertLessEqual({pair for pair in pairs if len(pair) == 2}, {frozenset((0, 1))})
+        self.assertAlmostEqual(self.top(output), 0.2 - 1000 * G * 0.2**2 / 2 / 1e7, delta=0.02 * 0.2)
 
 
 class FarPieces(BodyContactTest):

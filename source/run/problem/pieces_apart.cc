@@ -178,12 +178,17 @@ namespace Exemplar
   {
     constexpr std::size_t most_looks = 50000000; // at partings: a row of n pieces takes n^2 rounds
     constexpr double      farthest   = 10.;      // times what all partings have together
-    const std::vector<Parting> partings
-        = FacingPieces(touching, contacts, surface, positions).partings();
+    std::vector<Parting> partings = FacingPieces(touching, contacts, surface, positions).partings();
     const std::vector<unsigned int> group = groups_of_tied(contacts);
     std::vector<char>               stays(group.size(), 0);
     for (const unsigned int piece : staying)
       stays[group[piece]] = 1;
+    const auto cannot_part = [&](const Parting &parting)
+    {
+      const unsigned int a = group[parting.first], b = group[parting.second];
+      return a == b || (stays[a] != 0 && stays[b] != 0);
+    };
+    partings.erase(std::remove_if(partings.begin(), partings.end(), cannot_part), partings.end());
     std::vector<SpaceVector3> ways(group.size());
     double                    limit = 0.;
     for (const Parting &parting : partings)
@@ -197,12 +202,11 @@ namespace Exemplar
       {
         const unsigned int a = group[parting.first], b = group[parting.second];
         const double       missing = parting.by - (ways[b] - ways[a]) * parting.normal;
-        if (!(missing > 0.) || a == b)
+        if (!(missing > 0.))
           continue;
         is_apart            = false;
         const double movers = (stays[a] != 0 ? 0. : 1.) + (stays[b] != 0 ? 0. : 1.);
-        is_lost             = is_lost || movers == 0.;
-        const double each   = movers == 0. ? 0. : (missing + parting.margin) / movers;
+        const double each   = (missing + parting.margin) / movers;
         if (stays[a] == 0)
           ways[a] -= each * parting.normal;
         if (stays[b] == 0)
