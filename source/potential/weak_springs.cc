@@ -30,8 +30,9 @@ namespace Exemplar
   WeakSprings::begin_step(const State &start, const double /*step_size*/)
   {
     in_step    = true;
-    has_let_go = false;
+    has_let_go = kind != FreeBodies::friction; // renew() finds out whether there is friction
     n_looks = n_renewals = 0;
+    held_at              = start.positions;
     if (kind == FreeBodies::friction)
       anchors = start.positions;
     std::array<double, 2> sums{};
@@ -48,16 +49,18 @@ namespace Exemplar
   WeakSprings::renew(const TermPoint &at)
   {
     const ObstacleTerm::Step &friction = obstacles.get_step();
-    if (kind != FreeBodies::friction || !in_step || friction.n_looks == n_looks)
+    if (!in_step || friction.n_looks == n_looks)
       return TermChange::none;
     n_looks           = friction.n_looks;
     TermChange change = TermChange::none;
     // where a step begins nothing may push yet
-    if (!has_let_go && (friction.greatest_force > 0. || n_looks > 1))
+    if (const bool lets_go = friction.greatest_force > 0. || n_looks > 1; lets_go != has_let_go)
     {
-      has_let_go = true;
+      has_let_go = lets_go;
       change     = TermChange::values;
     }
+    if (kind != FreeBodies::friction)
+      return change;
     // what an obstacle carries along goes far from its anchors, and stiff springs would bear its weight
     const double allowed = obstacles.lag_tolerance() * friction.greatest_force;
     if (allowed > 0. && has_settled() && greatest_force(at.positions) > allowed)
@@ -72,8 +75,19 @@ namespace Exemplar
   double
   WeakSprings::stiffness(const ContactSurface::Node &node) const
   {
-    const bool holds = kind == FreeBodies::friction && !has_let_go;
-    return (holds ? until_friction_holds : weak) * by_area * node.area;
+    return (has_let_go ? weak : until_friction_holds) * by_area * node.area;
+  }
+
+  double
+  WeakSprings::stiffness(const ContactSurface::Node &node, const Tangent tangent) const
+  {
+    return tangent == Tangent::exact ? stiffness(node) : until_friction_holds * by_area * node.area;
+  }
+
+  SpaceVector3
+  WeakSprings::stretch(const ContactSurface::Node &node, const Vector &positions) const
+  {
+    return at_node(positions, node.node) - at_node(has_let_go ? anchors : held_at, node.node);
   }
 
   double
@@ -81,9 +95,7 @@ namespace Exemplar
   {
     double greatest = 0.;
     for (const ContactSurface::Node &node : surface.nodes)
-      greatest = std::max(
-          greatest,
-          stiffness(node) * (at_node(positions, node.node) - at_node(anchors, node.node)).norm());
+      greatest = std::max(greatest, stiffness(node) * stretch(node, positions).norm());
     return free_dofs->exchange().max(greatest);
   }
 
@@ -92,7 +104,7 @@ namespace Exemplar
   {
     force = SpaceVector3();
     for (const ContactSurface::Node &node : surface.nodes)
-      force -= stiffness(node) * (at_node(end.positions, node.node) - at_node(anchors, node.node));
+      force -= stiffness(node) * stretch(node, end.positions);
   }
 
   void
@@ -103,7 +115,7 @@ namespace Exemplar
     for (const ContactSurface::Node &node : surface.nodes)
     {
       const double       k = stiffness(node);
-      const SpaceVector3 u = at_node(at.positions, node.node) - at_node(anchors, node.node);
+      const SpaceVector3 u = stretch(node, at.positions);
       sums->energy += 0.5 * k * u.norm_square();
       add_to(sums->gradient, node.node, k * u);
       sums->force_scale[node.node] += k * u.norm();
@@ -116,15 +128,13 @@ namespace Exemplar
     EnergyFlow flow;
     if (kind == FreeBodies::friction && in_step)
       for (const ContactSurface::Node &node : surface.nodes)
-        flow.lost
-            += 0.5 * stiffness(node)
-               * (at_node(end.positions, node.node) - at_node(anchors, node.node)).norm_square();
+        flow.lost += 0.5 * stiffness(node) * stretch(node, end.positions).norm_square();
     return flow;
   }
 
   void
   WeakSprings::add_tangent(const TermPoint & /*at*/,
-                           const Tangent /*kind*/,
+                           const Tangent        tangent,
                            std::vector<double> &values,
                            std::vector<double> & /*columns*/)
   {
@@ -133,19 +143,20 @@ namespace Exemplar
     for (const ContactSurface::Node &node : surface.nodes)
       for (unsigned int c = 0; c < 3; ++c)
         if (const int row = free_dofs->free_index(3 * node.node + c); row != FreeDofs::held)
-          values[pattern->position(row, row)] += stiffness(node);
+          values[pattern->position(row, row)] += stiffness(node, tangent);
   }
 
   void
   WeakSprings::add_response(const TermPoint & /*at*/,
-                            const Tangent /*kind*/,
+                            const Tangent tangent,
                             const Vector &displacement,
                             ElasticSums  &sums)
   {
     if (!in_step)
       return;
     for (const ContactSurface::Node &node : surface.nodes)
-      add_to(sums->gradient, node.node, stiffness(node) * at_node(displacement, node.node));
+      add_to(sums->gradient, node.node,
+             stiffness(node, tangent) * at_node(displacement, node.node));
   }
 
   void

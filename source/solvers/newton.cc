@@ -18,6 +18,15 @@ namespace Exemplar
     /// differ from those that the tangent predicts, the tangent itself has changed.
     constexpr double nearly_linear = 1e-3;
 
+    /// Of the extent.
+    constexpr double max_prediction = 0.25;
+
+    /// Residual of a prediction.
+    constexpr double well_predicted = 0.1;
+
+    /// For a difference quotient: of the way of obstacles until one of them would meet the body.
+    constexpr double small_part = 1e-4;
+
     /// Inertia holds a body and predicts its motion; without it small forces can move soft or thin parts far,
     /// and factors of exact tangents serve the next prediction.
     bool
@@ -88,7 +97,11 @@ namespace Exemplar
                   if (!has_factor)
                   {
                     potential.get_body().update_rotations(start.state.positions);
-                    system.factorize_metric(start.state.positions, start.state.weights);
+                    if (is_without_inertia(potential))
+                      // contacts of the start resist what is carried
+                      system.factorize(start.state.positions, start.state.weights, 1.);
+                    else
+                      system.factorize_metric(start.state.positions, start.state.weights);
                   }
                   has_factor = true;
                   system.bordered().apply_inverse(forces);
@@ -114,7 +127,21 @@ namespace Exemplar
     }
     if (!is_made)
       add_tangent_step(start, displacement, Tangent::convex, trial, evaluation);
+    if (has_left(moved.positions, trial.state.positions))
+      trial.state = moved;
     trial.linearization = start.linearization; // of which the factor may have been made
+  }
+
+  bool
+  Newton::has_left(const Vector &from, const Vector &to) const
+  {
+    const Exchange &exchange = potential.get_free_dofs().exchange();
+    if (!exchange.any(!potential.weakly_constrained_pieces().empty()))
+      return false;
+    Vector way = to;
+    way -= from;
+    return exchange.max(max_entry(way.begin(), way.end()))
+           > max_prediction * extent(from, exchange);
   }
 
   bool
@@ -147,18 +174,44 @@ namespace Exemplar
       potential.get_body().add_response(tangent, displacement, from.positions, from.weights,
                                         evaluation.elastic);
       potential.add_terms(from.positions, evaluation);
+      const double time_of_obstacles
+          = is_without_inertia(potential)
+                ? add_motion_of_obstacles(from.positions, from.time, trial.state.time, evaluation)
+                : from.time;
       if (!has_factor)
         system.factorize(from.positions, from.weights, tangent == Tangent::convex ? 1. : 0.);
+      potential.move_to(from.time);
       system.add(system.solve(from, evaluation), trial.state);
       if (tangent == Tangent::exact && !has_factor && is_without_inertia(potential))
-        start.linearization = { from.positions,   from.weights, from.history,
-                                trial.state.time, from.time,    system.n_factorizations() };
+        start.linearization = { from.positions,   from.weights,      from.history,
+                                trial.state.time, time_of_obstacles, system.n_factorizations() };
       return true;
     }
     catch (const SolverFailure &)
     {
+      potential.move_to(from.time);
       return false; // indefinite
     }
+  }
+
+  double
+  Newton::add_motion_of_obstacles(const Vector &positions,
+                                  const double  from_time,
+                                  const double  time,
+                                  Evaluation   &evaluation)
+  {
+    if (potential.gap_width() == 0. || !potential.moves_between(from_time, time))
+      return from_time;
+    // a small part of what would close a gap
+    const Vector at_rest(positions.size());
+    const double part  = small_part * std::min(1., potential.max_step_to(time, positions, at_rest));
+    const double soon  = from_time + part * (time - from_time);
+    Evaluation   after = evaluation;
+    potential.move_to(soon);
+    potential.add_terms(positions, after);
+    after.gradient -= evaluation.gradient;
+    evaluation.gradient.add(1. / part, after.gradient);
+    return soon;
   }
 
   bool
@@ -225,8 +278,11 @@ namespace Exemplar
     unsigned int last = max_iterations;
     for (unsigned int iteration = 0;; ++iteration)
     {
-      const bool is_solved = potential.gap_width() > 0.
-                             && has_residual(parameters.tolerance, trial.state, evaluation);
+      // a good prediction has the normal forces of friction, too
+      const double bound
+          = iteration == 0 && is_without_inertia(potential) ? well_predicted : parameters.tolerance;
+      const bool is_solved
+          = potential.gap_width() > 0. && has_residual(bound, trial.state, evaluation);
       const bool is_same = potential.renew(trial.state, evaluation, is_solved) == TermChange::none;
       if (is_solved && !is_same)
         last = iteration + max_iterations; // another solution begins, with other friction

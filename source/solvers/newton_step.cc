@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <exemplar/algebra/extent.h>
+#include <exemplar/algebra/long_vectors.h>
 #include <exemplar/base/errors.h>
 #include <exemplar/solvers/newton.h>
 #include <exemplar/solvers/saddle.h>
@@ -13,9 +14,10 @@ namespace Exemplar
 {
   namespace
   {
-    constexpr unsigned int max_halvings_of_step = 30;
-    constexpr double       max_step_length      = 64.;
-  } // namespace
+    constexpr unsigned int max_halvings_of_step        = 30;
+    constexpr double       max_step_length             = 64.;
+    constexpr double       max_displacement_in_contact = 0.25; ///< of the body's extent
+  }                                                            // namespace
 
   double
   Newton::accuracy_of_step(const State &state, const Evaluation &evaluation) const
@@ -61,30 +63,80 @@ namespace Exemplar
     return false;
   }
 
-  bool
-  Newton::search_along(const BorderedVector &step,
-                       State                &state,
-                       Evaluation           &evaluation,
-                       SolveReport          &report)
+  StepPath
+  Newton::path_of(BorderedVector &step, const State &state, const Evaluation &evaluation)
   {
-    const State  start        = state;
-    const Vector displacement = system.displacement(state, step);
-    const double slope        = system.slope(evaluation, step);
-    const Merit  before(potential, evaluation);
-    const double longest           = potential.max_step(state.positions, displacement);
-    const double longest_of_convex = std::min(max_step_length, longest);
-    double      &length            = report.step_length;
-    report.newton_decrement        = -0.5 * slope;
-    const auto try_length          = [&](const double new_length)
+    const FreeDofs                 &free_dofs  = potential.get_free_dofs();
+    const std::vector<unsigned int> pieces     = potential.inertial_positions() == nullptr
+                                                     ? potential.weakly_constrained_pieces()
+                                                     : std::vector<unsigned int>();
+    const auto                      path_along = [&](const Vector &displacement)
+    { return StepPath(state.positions, displacement, pieces, free_dofs); };
+    Vector     displacement = system.displacement(state, step);
+    StepPath   path         = path_along(displacement);
+    const auto closes
+        = [&](const Vector &way) { return potential.max_step(state.positions, way) < 1.; };
+    if (potential.inertial_positions() != nullptr || potential.gap_width() == 0.
+        || system.iterates() || !closes(path.way(1.)))
+      return path;
+    const auto open = [&](Vector &way)
     {
-      length = new_length;
-      state  = start;
-      state.positions.add(length, displacement);
+      motion.keep_open(state.time, state.positions, way,
+                       [&](std::vector<double> &forces)
+                       { system.bordered().apply_inverse(forces); });
+    };
+    const double allowed
+        = max_displacement_in_contact * extent(state.positions, free_dofs.exchange());
+    const double greatest
+        = free_dofs.exchange().max(max_entry(displacement.begin(), displacement.end()));
+    if (greatest > allowed) // springs that hold a whole body are soft
+      displacement *= allowed / greatest;
+    open(displacement);
+    BorderedVector opened = step;
+    for (std::size_t i = 0; i < free_dofs.list().size(); ++i)
+      opened.positions[i] = displacement[free_dofs.list()[i]];
+    if (!(system.slope(evaluation, opened) < 0.))
+      return path;
+    step                   = std::move(opened);
+    StepPath     open_path = path_along(displacement);
+    const Vector end       = open_path.way(1.);
+    if (closes(end)) // because it turns
+    {
+      Vector bent = end;
+      open(bent);
+      bent -= end;
+      open_path.bend(bent);
+    }
+    return open_path;
+  }
+
+  bool
+  Newton::search_along(BorderedVector &step,
+                       State          &state,
+                       Evaluation     &evaluation,
+                       SolveReport    &report)
+  {
+    const State start       = state;
+    report.newton_decrement = -0.5 * system.slope(evaluation, step);
+    const StepPath path     = path_of(step, state, evaluation);
+    const double   slope    = system.slope(evaluation, step);
+    const Merit    before(potential, evaluation);
+    const double   longest           = potential.max_step(state.positions, path.way(1.));
+    const double   longest_of_convex = path.is_straight() ? std::min(max_step_length, longest) : 1.;
+    double        &length            = report.step_length;
+    const auto     try_length        = [&](const double new_length)
+    {
+      length          = new_length;
+      state           = start;
+      state.positions = path.at(length);
       evaluate(state, evaluation);
     };
     for (unsigned int halving = 0; halving < max_halvings_of_step; ++halving)
     {
-      try_length(std::pow(0.5, halving) * std::min(1., longest));
+      const double part = std::pow(0.5, halving) * std::min(1., longest);
+      if (!path.is_straight() && potential.max_step(start.positions, path.way(part)) < 1.)
+        continue;
+      try_length(part);
       const Merit now(potential, evaluation);
       if (!is_better(now, before, length * slope)
           && !is_better_by_slopes(now, before, slope, system.slope(evaluation, step), length))

@@ -9,14 +9,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 namespace Exemplar
 {
   namespace
   {
-    constexpr double       overtaken     = 0.45; ///< widths: what would end nearer is carried
-    constexpr double       carried_to    = 0.5;  ///< widths
-    constexpr double       carried_error = 0.02; ///< widths
+    constexpr double       overtaken   = 0.45; ///< widths: what would end nearer is carried
+    constexpr double       carried_to  = 0.5;  ///< widths
+    constexpr double       aimed_error = 0.04; ///< of the aim
     constexpr unsigned int max_carries = 3; ///< in a stage, as nodes that follow are overtaken, too
     constexpr unsigned int max_push_steps       = 200; ///< for one of these
     constexpr unsigned int max_halvings_of_part = 10;
@@ -164,7 +166,8 @@ namespace Exemplar
       stop_if_interrupted();
       to = target;
       potential.move_to(now);
-      carry(now, at, time, to, follow);
+      const bool has_inertia = potential.inertial_positions() != nullptr;
+      carry(now, at, time, to, has_inertia ? LeastRoom() : LeastRoom{ 0.5, 1. }, follow);
       Vector way = to;
       way -= at;
       const double part = potential.max_step_to(time, at, way);
@@ -210,17 +213,26 @@ namespace Exemplar
 
   namespace
   {
-    /// The displacement u = H U f of least work after which gaps d + U^T u are at least in the middle of their widths: forces f >= 0, and 0
+    /// How wide a gap must be [m], and by how much it may differ where it is pushed.
+    struct Target
+    {
+      double distance, error;
+    };
+
+    /// The displacement u = H U f of least work after which gaps d + U^T u are at least as wide as their targets: forces f >= 0, and 0
     /// where a gap is wider than that. Conjugate gradients, which begin anew where a force would pull; gaps of which several push the
     /// same nodes may make U^T H U singular.
     class LeastPush
     {
     public:
+      /// One target a gap, each of which has a barrier and no friction.
       LeastPush(const GapEnergies          &gaps,
+                const std::vector<Target>  &targets,
                 const FreeDofs             &free_dofs,
                 const StagedMotion::Follow &follow)
-          : gaps(gaps), free_dofs(free_dofs), follow(follow), missing(missing_after(Vector())),
-            forces(missing.size()), direction(missing.size()), displacement(free_dofs.n_dofs())
+          : gaps(gaps), targets(targets), free_dofs(free_dofs), follow(follow),
+            missing(missing_after(Vector())), forces(missing.size()), direction(missing.size()),
+            displacement(free_dofs.n_dofs())
       {
       }
 
@@ -238,7 +250,7 @@ namespace Exemplar
       }
 
     private:
-      /// Of the middle of the widths, after a displacement or none.
+      /// Of the targets, after a displacement or none.
       std::vector<double>
       missing_after(const Vector &by) const
       {
@@ -246,7 +258,7 @@ namespace Exemplar
         if (by.size() > 0)
           result = gaps.changes(by);
         for (std::size_t r = 0; r < result.size(); ++r)
-          result[r] = carried_to * gaps.gap_of(r).width - gaps.gap_of(r).distance - result[r];
+          result[r] = targets[r].distance - gaps.gap_of(r).distance - result[r];
         return result;
       }
 
@@ -265,8 +277,8 @@ namespace Exemplar
       {
         double error = 0.;
         for (std::size_t r = 0; r < gradient.size(); ++r)
-          error = std::max(error, std::abs(gradient[r]) / gaps.gap_of(r).width);
-        return free_dofs.exchange().max(error) > carried_error;
+          error = std::max(error, std::abs(gradient[r]) / targets[r].error);
+        return free_dofs.exchange().max(error) > 1.;
       }
 
       /// Whether there was a step that does.
@@ -328,6 +340,7 @@ namespace Exemplar
       }
 
       const GapEnergies          &gaps;
+      const std::vector<Target>  &targets; ///< by row
       const FreeDofs             &free_dofs;
       const StagedMotion::Follow &follow;
       std::vector<double>         missing, forces, direction; ///< by row
@@ -336,40 +349,100 @@ namespace Exemplar
     };
   } // namespace
 
-  void
-  StagedMotion::carry(const double  now,
-                      const Vector &from,
-                      const double  time,
-                      Vector       &to,
-                      const Follow &follow) const
+  namespace
   {
-    const FreeDofs  &free_dofs = potential.get_free_dofs();
-    const Exchange  &exchange  = free_dofs.exchange();
-    const Vector     predicted = to;
-    std::vector<Gap> carried;
-    const Follow     follow_or_stop = [&](std::vector<double> &forces)
+    /// The distance of each gap that is within a range, by its nodes and its normal.
+    class Distances
+    {
+    public:
+      explicit Distances(const std::vector<Gap> &gaps)
+      {
+        for (const Gap &gap : gaps)
+          if (gap.stiffness > 0.)
+            known[nodes_of(gap)].emplace_back(gap.normal, gap.distance);
+      }
+
+      /// Infinite for a gap that was not within the range.
+      double
+      of(const Gap &gap) const
+      {
+        double     least = std::numeric_limits<double>::infinity();
+        const auto found = known.find(nodes_of(gap));
+        if (found != known.end())
+          for (const auto &[normal, distance] : found->second)
+            if (normal * gap.normal > 0.5)
+              least = std::min(least, distance);
+        return least;
+      }
+
+    private:
+      static std::vector<unsigned int>
+      nodes_of(const Gap &gap)
+      {
+        return { gap.nodes.begin(), gap.nodes.begin() + gap.n_nodes };
+      }
+
+      std::map<std::vector<unsigned int>, std::vector<std::pair<dealii::Tensor<1, 3>, double>>>
+          known;
+    };
+  } // namespace
+
+  void
+  StagedMotion::carry(const double     now,
+                      const Vector    &from,
+                      const double     time,
+                      Vector          &to,
+                      const LeastRoom &room,
+                      const Follow    &follow) const
+  {
+    const FreeDofs     &free_dofs = potential.get_free_dofs();
+    const Exchange     &exchange  = free_dofs.exchange();
+    const Vector        predicted = to;
+    std::vector<Gap>    carried;
+    std::vector<Target> targets;
+    const Distances     at_start(room.kept < infinite ? potential.gaps(from, overtaken)
+                                                      : std::vector<Gap>());
+    const Follow        follow_or_stop = [&](std::vector<double> &forces)
     {
       stop_if_interrupted();
       follow(forces);
     };
     for (unsigned int i = 0; i < max_carries; ++i)
     {
-      // those that were carried are in the middle of their widths by now
+      // those that were carried have their aims by now
       bool   is_more    = false;
       Vector difference = to;
       difference -= predicted;
       for (const Gap &gap : potential.gaps_of_way(now, time, from, to, overtaken))
-        if (gap.stiffness > 0. && has_free(gap, free_dofs))
-        {
-          carried.push_back(gap);
-          carried.back().distance -= GapEnergies({ gap }).changes(difference)[0];
-          is_more = true;
-        }
+      {
+        const double before = std::min(at_start.of(gap), carried_to * gap.width);
+        if (!(gap.stiffness > 0.) || !has_free(gap, free_dofs)
+            || gap.distance >= room.kept * before)
+          continue;
+        carried.push_back(gap);
+        carried.back().distance -= GapEnergies({ gap }).changes(difference)[0];
+        const double aim = std::min(carried_to * gap.width, room.aim * before);
+        targets.push_back({ aim, aimed_error * aim });
+        is_more = true;
+      }
       if (!exchange.any(is_more))
         return;
       to = predicted;
-      to += LeastPush(GapEnergies(carried), free_dofs, follow_or_stop).find();
+      to += LeastPush(GapEnergies(carried), targets, free_dofs, follow_or_stop).find();
     }
+  }
+
+  void
+  StagedMotion::keep_open(const double  time,
+                          const Vector &positions,
+                          Vector       &displacement,
+                          const Follow &follow) const
+  {
+    Vector to = positions;
+    to += displacement;
+    carry(time, positions, time, to, { 0.1, 0.2 }, follow);
+    displacement = to;
+    displacement -= positions;
   }
 
   void

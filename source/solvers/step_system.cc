@@ -47,10 +47,7 @@ namespace Exemplar
   StepSystem::factorize_metric(const Vector &positions, const std::vector<double> &weights)
   {
     assemble(positions, weights, 1., PotentialTangent::Terms::without_gaps);
-    // the stiffness of springs that hold a whole body is below the rounding of a rough factor
-    const bool is_rough = potential.weakly_constrained_pieces().empty();
-    factorize_by(is_rough ? &BorderedSystem::factorize_roughly : &BorderedSystem::factorize,
-                 positions);
+    factorize_by(&BorderedSystem::factorize_roughly, positions);
   }
 
   void

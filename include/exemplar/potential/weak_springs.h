@@ -121,6 +121,15 @@ namespace Exemplar
     double
     stiffness(const ContactSurface::Node &node) const;
 
+    /// The same of a tangent. A convex one is stiffer: otherwise its inverse on rigid motions would be a million times that on
+    /// strains, beyond single precision and what conjugate gradients bear.
+    double
+    stiffness(const ContactSurface::Node &node, Tangent tangent) const;
+
+    /// Of the spring at a node [m].
+    SpaceVector3
+    stretch(const ContactSurface::Node &node, const Vector &positions) const;
+
     /// The greatest force of a spring, of all processes [N].
     double
     greatest_force(const Vector &positions) const;
@@ -135,8 +144,9 @@ namespace Exemplar
     const std::vector<unsigned int> pieces;       ///< of the nodes
     double                          by_area = 0.; ///< E L / surface [N/m^3]
     Vector                          anchors;
-    bool                            in_step    = false;
-    bool                            has_let_go = false; ///< friction holds the body now
+    bool                            in_step = false;
+    bool   has_let_go = false; ///< stiffer springs need not hold the body now until friction does
+    Vector held_at;            ///< anchors of the stiffer ones
     unsigned int            n_looks = 0; ///< of the obstacles in the step, as of the last renew()
     unsigned int            n_renewals = 0; ///< of the anchors in the step
     SpaceVector3            force;          ///< on the body where a step ended, of this process [N]

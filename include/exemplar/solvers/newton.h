@@ -4,6 +4,7 @@
 
 #include <exemplar/solvers/line_search.h>
 #include <exemplar/solvers/staged_motion.h>
+#include <exemplar/solvers/step_path.h>
 #include <exemplar/solvers/step_solver.h>
 
 #include <limits>
@@ -112,10 +113,23 @@ namespace Exemplar
                      Trial        &trial,
                      Evaluation   &evaluation);
 
+    /// Whether a predicted body is far away, because weak springs alone resist what moves it.
+    bool
+    has_left(const Vector &from, const Vector &to) const;
+
     /// Whether the potential falls on the way, if cells remember what they have done: where they stop to yield, the
     /// factor of the last step, in which they yielded, takes a body much too far.
     bool
     is_descent_of_flow(const State &from, const State &to, Evaluation &evaluation);
+
+    /// Add to the forces how they change while obstacles move from one time to another, extrapolated from a small part of this motion.
+    /// Returns the time of this part, at which the obstacles are then: a barrier becomes stiffer as its gap closes, so
+    /// that with the tangent of this time no body goes further than what pushes it.
+    double
+    add_motion_of_obstacles(const Vector &positions,
+                            double        from_time,
+                            double        time,
+                            Evaluation   &evaluation);
 
     /// Have the factor of its linearization in the system; false if there is none. The terms are those of `time` [s].
     bool
@@ -147,11 +161,13 @@ namespace Exemplar
               BorderedVector   &step,
               SolveReport      &report);
 
+    /// The path of a step. In statics, where no inertia keeps steps short, a step that would close gaps becomes one that keeps
+    /// them open: otherwise one gap would shorten the step of the whole body.
+    StepPath
+    path_of(BorderedVector &step, const State &state, const Evaluation &evaluation);
+
     bool
-    search_along(const BorderedVector &step,
-                 State                &state,
-                 Evaluation           &evaluation,
-                 SolveReport          &report);
+    search_along(BorderedVector &step, State &state, Evaluation &evaluation, SolveReport &report);
 
     /// Near a saddle point neither the potential nor the gradient tells which way is down, but the
     /// curvature does. False if it does not, or the potential does not fall there.

@@ -7,6 +7,7 @@
 #include <exemplar/solvers/gap_energies.h>
 
 #include <functional>
+#include <limits>
 
 namespace Exemplar
 {
@@ -33,6 +34,15 @@ namespace Exemplar
     unsigned int
     move(double start_time, const Vector &from, double time, Vector &to, const Follow &follow);
 
+    /// Change a displacement that would close gaps to the nearest one that leaves each a part, in the norm of the matrix whose inverse
+    /// is `follow`. Obstacles are where they are at `time`. With the tangent of a convex model this is its minimum within these
+    /// limits, so that a descent direction stays one.
+    void
+    keep_open(double        time,
+              const Vector &positions,
+              Vector       &displacement,
+              const Follow &follow) const;
+
   private:
     /// Whether held nodes are at other places.
     bool
@@ -51,9 +61,23 @@ namespace Exemplar
     void
     go(double part, double time, const Vector &way, Vector &at, double &now) const;
 
-    /// Put what obstacles would overtake on the way from `from`, where they stand `now`, to `to` at `time` [s], into the middle of its gaps' widths.
+    static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+    /// The parts of a gap's distance at the start that are enough at the end, and that a gap gets that has less. At most the middle of
+    /// its width is asked for.
+    struct LeastRoom
+    {
+      double kept = infinite, aim = infinite;
+    };
+
+    /// Change `to` so that gaps have this room after the way from `from`, where obstacles stand `now`, to `to` at `time` [s].
     void
-    carry(double now, const Vector &from, double time, Vector &to, const Follow &follow) const;
+    carry(double           now,
+          const Vector    &from,
+          double           time,
+          Vector          &to,
+          const LeastRoom &room,
+          const Follow    &follow) const;
 
     /// Say who cannot pass whom on that way between these times [s].
     [[noreturn]] void
