@@ -153,11 +153,23 @@ namespace Exemplar
                   auto rubs = rubbing_of(touch, touch.pair.key(), contacts.friction);
                   if (!rubs)
                     return;
-                  if (const auto motion = motion_of_pair(rubs->gap, at.positions))
-                    rubs->normal_before = rubs->gap.normal * motion->rotation;
+                  rubs->gap.slip_by_nodes = slip_by_points(rubs->gap, at.positions);
                   fresh.push_back(*rubs);
                 });
     return renew_friction(std::move(fresh), lag_tolerance, step);
+  }
+
+  std::vector<dealii::Tensor<2, 3>>
+  BodyContactTerm::slip_by_points(const Gap &gap, const Vector &positions) const
+  {
+    PairPoints            now;
+    std::array<double, 4> coefficients;
+    for (unsigned int i = 0; i < 4; ++i)
+    {
+      now[i]          = points.value(positions, gap.nodes[i]);
+      coefficients[i] = gap.coefficients[i];
+    }
+    return slip_of_pair(now, coefficients);
   }
 
   SpaceVector3
@@ -165,37 +177,20 @@ namespace Exemplar
   {
     SpaceVector3 u;
     for (unsigned int i = 0; i < 4; ++i)
-      u += at.gap.coefficients[i]
-           * (points.value(positions, at.gap.nodes[i])
-              - points.value(step.slip_base, at.gap.nodes[i]));
-    return u;
-  }
-
-  std::optional<PairMotion>
-  BodyContactTerm::motion_of_pair(const Gap &gap, const Vector &positions) const
-  {
-    PairPoints            before, now;
-    std::array<double, 4> coefficients;
-    for (unsigned int i = 0; i < 4; ++i)
     {
-      before[i]       = points.value(step.slip_base, gap.nodes[i]);
-      now[i]          = points.value(positions, gap.nodes[i]);
-      coefficients[i] = gap.coefficients[i];
+      const SpaceVector3 moved = points.value(positions, at.gap.nodes[i])
+                                 - points.value(step.slip_base, at.gap.nodes[i]);
+      u += at.gap.slip_by_nodes.empty() ? at.gap.coefficients[i] * moved
+                                        : at.gap.slip_by_nodes[i] * moved;
     }
-    return PairMotion::from(before, now, coefficients);
+    return u;
   }
 
   TouchingTerm::Slip
   BodyContactTerm::slip(const Rubbing &at, const Vector &positions) const
   {
-    const std::optional<PairMotion> pair = motion_of_pair(at.gap, positions);
-    if (!pair)
-      return TouchingTerm::slip(at, positions);
-    // the direction that does not count turns with the pair
-    const SpaceVector3 u = pair->motion(), normal = pair->rotation * at.normal_before;
-    Slip               result{ u - (u * normal) * normal, normal, {} };
-    for (unsigned int i = 0; i < 4; ++i)
-      result.by_points.push_back(pair->by_point(i));
+    Slip result      = TouchingTerm::slip(at, positions);
+    result.by_points = at.gap.slip_by_nodes;
     return result;
   }
 

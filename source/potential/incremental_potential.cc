@@ -77,6 +77,8 @@ namespace Exemplar
   void
   IncrementalPotential::begin_step(const State &start, const double step_size)
   {
+    // the pattern depends on no earlier step, so that a resumed run has the same
+    tangent.follow_gaps(start.positions, PotentialTangent::Terms::without_gaps);
     body.set_history(start.history);
     body.set_step_size(integrator != nullptr ? step_size : std::numeric_limits<double>::infinity());
     if (integrator != nullptr)

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <exemplar/obstacles/obstacle.h>
 #include <exemplar/potential/pair_slip.h>
-
-#include <cmath>
 
 namespace Exemplar
 {
@@ -21,93 +18,34 @@ namespace Exemplar
       result[2][1] = a[0];
       return result;
     }
-
-    PairPoints
-    centred(PairPoints points)
-    {
-      const SpaceVector3 centre = 0.25 * (points[0] + points[1] + points[2] + points[3]);
-      for (SpaceVector3 &point : points)
-        point -= centre;
-      return points;
-    }
-
-    /// Whether a symmetric matrix with this added to its diagonal is definite, clearly for entries of this size.
-    bool
-    is_definite(const dealii::Tensor<2, 3> &matrix, const double diagonal, const double size)
-    {
-      constexpr double     clearly = 1e-12;
-      dealii::Tensor<2, 3> sum     = matrix;
-      for (unsigned int c = 0; c < 3; ++c)
-        sum[c][c] += diagonal;
-      return sum[0][0] > 0. && sum[0][0] * sum[1][1] - sum[0][1] * sum[1][0] > 0.
-             && dealii::determinant(sum) > clearly * size * size * size;
-    }
-
-    SpaceVector3
-    weighted_sum(const PairPoints &points, const std::array<double, 4> &coefficients)
-    {
-      SpaceVector3 sum;
-      for (unsigned int i = 0; i < 4; ++i)
-        sum += coefficients[i] * points[i];
-      return sum;
-    }
   } // namespace
 
-  std::optional<PairMotion>
-  PairMotion::from(const PairPoints            &before,
-                   const PairPoints            &now,
-                   const std::array<double, 4> &coefficients)
+  std::vector<dealii::Tensor<2, 3>>
+  slip_of_pair(const PairPoints &points, const std::array<double, 4> &coefficients)
   {
-    constexpr unsigned int max_turns    = 200;
-    constexpr double       part_of_size = 0.1, longest = 1.; ///< [rad]
-    constexpr double       small = 1e-8; ///< [rad]: the next turn, its square, is rounding
-    const PairPoints       there = centred(now), here = centred(before);
-    double                 size = 0.;
+    constexpr double   one_line = 1e-12; ///< of the determinant of inertia over its greatest value
+    const SpaceVector3 centre   = 0.25 * (points[0] + points[1] + points[2] + points[3]);
+    SpaceVector3       lever;
+    dealii::Tensor<2, 3> inertia;
     for (unsigned int i = 0; i < 4; ++i)
-      size += here[i].norm() * there[i].norm();
-    double     last = 1.; // turn [rad]
-    PairMotion result;
-    result.coefficients     = coefficients;
-    result.of_points        = weighted_sum(there, coefficients);
-    result.of_points_before = weighted_sum(here, coefficients);
-    for (unsigned int c = 0; c < 3; ++c)
-      result.rotation[c][c] = 1.;
-    for (unsigned int turn = 0; turn < max_turns; ++turn)
     {
-      dealii::Tensor<2, 3> products; // sum of arm x point, which is symmetric in the end
-      SpaceVector3         moment;
-      for (unsigned int i = 0; i < 4; ++i)
-      {
-        result.arms[i] = result.rotation * here[i];
-        products += dealii::outer_product(result.arms[i], there[i]);
-        moment += dealii::cross_product_3d(result.arms[i], there[i]);
-      }
-      dealii::Tensor<2, 3> matrix   = -0.5 * (products + dealii::transpose(products));
-      const double         trace    = dealii::trace(products);
-      const bool           is_final = is_definite(matrix, trace, size);
-      // a turn from far away goes up the slope with a matrix that is definite
-      const double diagonal = is_final ? trace : matrix.norm() + part_of_size * size;
+      const SpaceVector3 arm = points[i] - centre;
+      lever += coefficients[i] * points[i];
+      inertia -= dealii::outer_product(arm, arm);
       for (unsigned int c = 0; c < 3; ++c)
-        matrix[c][c] += diagonal;
-      result.turn_by_moment = dealii::invert(matrix);
-      SpaceVector3 rotation = result.turn_by_moment * moment;
-      if (last < small)
-        return is_final ? std::optional(result) : std::nullopt;
-      last = rotation.norm();
-      if (last > longest)
-        rotation *= longest / last;
-      result.rotation = rotation_by(rotation) * result.rotation;
+        inertia[c][c] += arm * arm;
     }
-    return {};
-  }
-
-  dealii::Tensor<2, 3>
-  PairMotion::by_point(const unsigned int i) const
-  {
-    // the axes turn by turn_by_moment * (arm_i x dx_i), and r stays behind them
-    dealii::Tensor<2, 3> result = cross_matrix(of_points) * turn_by_moment * cross_matrix(arms[i]);
-    for (unsigned int c = 0; c < 3; ++c)
-      result[c][c] += coefficients[i];
+    const double size = dealii::trace(inertia);
+    if (!(dealii::determinant(inertia) > one_line * size * size * size))
+      return {};
+    const dealii::Tensor<2, 3>        turn = cross_matrix(lever) * dealii::invert(inertia);
+    std::vector<dealii::Tensor<2, 3>> result(4);
+    for (unsigned int i = 0; i < 4; ++i)
+    {
+      result[i] = turn * cross_matrix(points[i] - centre);
+      for (unsigned int c = 0; c < 3; ++c)
+        result[i][c][c] += coefficients[i];
+    }
     return result;
   }
 } // namespace Exemplar

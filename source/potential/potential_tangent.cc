@@ -2,6 +2,7 @@
 #include <exemplar/potential/potential_tangent.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace Exemplar
 {
@@ -17,6 +18,59 @@ namespace Exemplar
         couplings.insert(couplings.end(), more.begin(), more.end());
       }
       return couplings;
+    }
+
+    /// Barrier distances up to which gaps are in a pattern that is made anew.
+    constexpr double reserve_of_gaps = 2.;
+
+    void
+    sort(NodePairs &pairs)
+    {
+      std::sort(pairs.begin(), pairs.end());
+      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    }
+
+    /// Couplings of gaps that have a barrier or friction at these positions.
+    NodePairs
+    couplings_of_gaps(const PotentialTerms &terms, const Vector &positions)
+    {
+      NodePairs couplings;
+      for (const auto &term : terms)
+        if (term->gap_width() > 0.)
+        {
+          const NodePairs more = term->couplings_of_gaps(positions);
+          couplings.insert(couplings.end(), more.begin(), more.end());
+        }
+      sort(couplings);
+      return couplings;
+    }
+
+    /// The same of gaps up to the reserve, for terms that couple nodes now.
+    NodePairs
+    reserve_of_couplings(const PotentialTerms &terms, const Vector &positions)
+    {
+      NodePairs couplings;
+      for (const auto &term : terms)
+      {
+        if (!(term->gap_width() > 0.) || term->couplings_of_gaps(positions).empty())
+          continue;
+        std::vector<Gap> gaps;
+        term->append_gaps(positions, reserve_of_gaps, gaps);
+        for (const Gap &gap : gaps)
+          for (unsigned int i = 0; i < gap.n_nodes; ++i)
+            for (unsigned int j = 0; j < i; ++j)
+              couplings.push_back(std::minmax({ gap.nodes[i], gap.nodes[j] }));
+      }
+      sort(couplings);
+      return couplings;
+    }
+
+    NodePairs
+    union_of(const NodePairs &a, const NodePairs &b)
+    {
+      NodePairs both;
+      std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+      return both;
     }
 
     /// a + c (b - a)
@@ -92,16 +146,17 @@ namespace Exemplar
   void
   PotentialTangent::follow_gaps(const Vector &positions, const Terms which)
   {
-    NodePairs now;
-    for (const auto &term : terms)
-      if (which == Terms::all && term->gap_width() > 0.)
-      {
-        const NodePairs more = term->couplings_of_gaps(positions);
-        now.insert(now.end(), more.begin(), more.end());
-      }
-    if (!free_dofs.exchange().any(now != gap_couplings))
+    const bool      has_gaps  = which == Terms::all;
+    const NodePairs now       = has_gaps ? couplings_of_gaps(terms, positions) : NodePairs();
+    const bool      is_enough = has_gaps ? std::includes(gap_couplings.begin(), gap_couplings.end(),
+                                                         now.begin(), now.end())
+                                         : gap_couplings.empty();
+    if (!free_dofs.exchange().any(!is_enough))
       return;
-    gap_couplings.swap(now);
+    // pairs that open and close must not change the pattern in each iteration
+    gap_couplings
+        = has_gaps ? union_of(union_of(gap_couplings, now), reserve_of_couplings(terms, positions))
+                   : NodePairs();
     renew_pattern();
   }
 
@@ -142,7 +197,8 @@ namespace Exemplar
                              OuterProducts             *products,
                              const Terms                which)
   {
-    Assert(!(pattern.products_are_apart || body.has_dense_products()) || products != nullptr, dealii::ExcInternalError());
+    Assert(!(pattern.products_are_apart || body.has_dense_products()) || products != nullptr,
+           dealii::ExcInternalError());
     if (!pattern.products_are_apart && !body.has_dense_products())
       products = nullptr; // all is on the pattern
     assemble_one(convexity < 1. ? Tangent::exact : Tangent::convex, positions, at_weights,

@@ -71,7 +71,7 @@ namespace Exemplar
     if (coefficient == 0. || !(gap.distance > 0.) || gap.stiffness == 0.)
       return {};
     const double force = -slope_of(gap);
-    return Rubbing{ touch.obstacle, key, gap, force, coefficient, {}, {}, {}, {} };
+    return Rubbing{ touch.obstacle, key, gap, force, coefficient, {}, {}, {} };
   }
 
   TermChange

@@ -97,7 +97,8 @@ namespace Exemplar
             [&](const std::vector<double> &of_rows) { return forces_of(gaps, of_rows); },
             [&](const std::vector<double> &step) { return gaps.changes(displacement(step)); },
             exchange };
-    const bool                 dense = is_dense(gaps);
+    const bool dense = is_dense(gaps);
+    many_gaps        = exchange.n_processes() == 1 && columns.has_entries() && !dense;
     dealii::FullMatrix<double> W;
     if (dense)
       W = columns.between_rows(gaps, correction);

@@ -34,6 +34,14 @@ namespace Exemplar
     {
       return potential.inertial_positions() == nullptr;
     }
+    /// Whether the pattern may have couplings of gaps, which depend on the iterations of the step.
+    bool
+    has_pattern_of_step(const IncrementalPotential &potential)
+    {
+      return potential.gap_width() > 0.
+             && potential.get_free_dofs().exchange().any(potential.get_tangent().get_pattern().plain
+                                                         != nullptr);
+    }
   } // namespace
 
   Newton::Newton(const SolverParameters &parameters,
@@ -56,15 +64,28 @@ namespace Exemplar
     {
       state    = std::move(trial.state);
       accepted = std::move(trial.linearization);
-      if (potential.has_tangent_of_step())
+      if (potential.has_tangent_of_step() || has_pattern_of_step(potential))
         accepted = {}; // a resumed run could not make it again
     }
     return report;
   }
 
   void
-  Newton::take_over(State &state, Evaluation &evaluation, const double time, SolveReport &report)
+  Newton::take_over(State       &state,
+                    const State *reached,
+                    Evaluation  &evaluation,
+                    const double time,
+                    SolveReport &report)
   {
+    if (reached != nullptr)
+    {
+      Trial trial = { *reached, {}, system.n_factorizations() };
+      if (finish(trial, evaluation, report))
+      {
+        state = std::move(trial.state);
+        return;
+      }
+    }
     Trial trial = { state, {}, system.n_factorizations() };
     if (advance(trial, evaluation, time, 0, report))
       state = std::move(trial.state);

@@ -61,6 +61,15 @@ namespace Exemplar
   } // namespace
 
   bool
+  Newton::finish(Trial &trial, Evaluation &evaluation, SolveReport &report)
+  {
+    // this trial is near, and what is left are renewals of friction, which take a few iterations each
+    try_to([&] { iterate(patience * parameters.maximum_iterations, trial, evaluation, report); },
+           report);
+    return report.status == SolveStatus::converged;
+  }
+
+  bool
   Newton::advance(Trial             &start,
                   Evaluation        &evaluation,
                   const double       time,

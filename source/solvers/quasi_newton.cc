@@ -81,6 +81,7 @@ namespace Exemplar
                                   const double step_size)
   {
     SolveReport report;
+    bool        has_reached = false;
     potential.begin_step(state, step_size);
     State &trial = memory.trial;
     trial        = state;
@@ -92,6 +93,7 @@ namespace Exemplar
       report_or_stop(trial, evaluation, report);
       find_metric(state, step_size, trial);
       iterate(state, step_size, trial, evaluation, report);
+      has_reached = true;
     }
     catch (const SolverFailure &failure)
     {
@@ -106,7 +108,7 @@ namespace Exemplar
     history.made.reset();
     next = {};
     metric.clear();
-    newton.take_over(state, evaluation, time, report);
+    newton.take_over(state, has_reached ? &trial : nullptr, evaluation, time, report);
     return report;
   }
 
@@ -348,6 +350,15 @@ namespace Exemplar
     return change < 0. && change >= linear ? change : min_promise * linear;
   }
 
+  double
+  QuasiNewton::slope_along(const std::vector<double> &step, const Evaluation &evaluation) const
+  {
+    const FreeDofs     &free_dofs = potential.get_free_dofs();
+    std::vector<double> gradient;
+    free_dofs.gather(evaluation.gradient, gradient);
+    return free_dofs.exchange().sum(dot(step, gradient));
+  }
+
   bool
   QuasiNewton::take_step(const double slope,
                          State       &trial,
@@ -370,8 +381,10 @@ namespace Exemplar
         potential.minimize_over_weights(
             trial, in_contact ? RotationUse::update : RotationUse::find_and_forget, evaluation);
       }
-      if (is_better({ potential, evaluation }, before,
-                    expected_change(memory.iteration, slope, length)))
+      const Merit now(potential, evaluation);
+      if (is_better(now, before, expected_change(memory.iteration, slope, length))
+          || (is_below_rounding(before, length * slope)
+              && is_better_by_slopes(now, before, slope, slope_along(step, evaluation), length)))
         return true;
       if (halving == max_halvings)
       {
@@ -477,7 +490,7 @@ namespace Exemplar
           = n_with_metric < most && slope < 0. && take_step(slope, trial, evaluation, report);
       if (!is_descent)
       {
-        if (++n_metrics > most_metrics)
+        if (++n_metrics > most_metrics || (in_contact && contact.has_many_gaps()))
           return;
         if (n_with_metric < most) // the line search gave up, and went back
         {

@@ -161,9 +161,9 @@ namespace Exemplar
     Slip
     slip(const Rubbing &at, const Vector &positions) const override;
 
-    /// How what rubs has moved in the step, seen from axes that turn with it.
-    std::optional<PairMotion>
-    motion_of_pair(const Gap &gap, const Vector &positions) const;
+    /// slip_of_pair() of the points of a gap.
+    std::vector<dealii::Tensor<2, 3>>
+    slip_by_points(const Gap &gap, const Vector &positions) const;
 
     double
     slip_speed(const Rubbing &at) const override

@@ -76,8 +76,6 @@ namespace Exemplar
     /// Where that point is between vertices that move by themselves.
     std::array<unsigned int, 3> vertices;
     std::array<double, 3>       shares;
-    SpaceVector3
-        normal_before; ///< of two parts of a body: the normal in the axes of the step's start
   };
 
   /// The greatest normal force of what rubs, and the greatest difference to earlier ones; both lists ascend with obstacles and keys.

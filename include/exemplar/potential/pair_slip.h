@@ -5,46 +5,19 @@
 #include <exemplar/obstacles/closest_features.h>
 
 #include <array>
-#include <optional>
+#include <vector>
 
 namespace Exemplar
 {
   /// The four points of a pair of parts of a body [m].
   using PairPoints = std::array<SpaceVector3, 4>;
 
-  /// A motion r = sum c_i x_i of two points of a pair along each other, with coefficients whose sum is 0, seen from axes that turn with
-  /// the pair: the rotation R fits the points now best to those before. So the motion u = r - R r_before of a pair that turns as a
-  /// whole is 0, and forces that are the derivative of a function of R^T u have neither a sum nor a moment, whatever their lever.
-  class PairMotion
-  {
-  public:
-    /// Empty where points in one line leave the rotation open.
-    static std::optional<PairMotion>
-    from(const PairPoints            &before,
-         const PairPoints            &now,
-         const std::array<double, 4> &coefficients);
-
-    /// u [m].
-    SpaceVector3
-    motion() const
-    {
-      return of_points - rotation * of_points_before;
-    }
-
-    /// du/dx_i in these axes.
-    dealii::Tensor<2, 3>
-    by_point(unsigned int i) const;
-
-    dealii::Tensor<2, 3> rotation; ///< R
-
-  private:
-    PairMotion() = default;
-
-    SpaceVector3          of_points, of_points_before; ///< r
-    PairPoints            arms;                        ///< points before from their centre, turned
-    dealii::Tensor<2, 3>  turn_by_moment; ///< the turn [rad] for a sum of arms times displacements
-    std::array<double, 4> coefficients;
-  };
+  /// The matrices B_i of the slip u = sum B_i dx_i of a pair, of which the one part moves along the other by sum c_i dx_i, with
+  /// coefficients whose sum is 0. The slip is that motion, less the turn of the points about their centre times the lever
+  /// r = sum c_i x_i. So it is 0 where the pair turns as a whole, and forces B_i^T f have neither a sum nor a moment, whatever
+  /// their lever. Empty where points in one line leave the turn open.
+  std::vector<dealii::Tensor<2, 3>>
+  slip_of_pair(const PairPoints &points, const std::array<double, 4> &coefficients);
 } // namespace Exemplar
 
 #endif

@@ -63,8 +63,9 @@ namespace Exemplar
       without_gaps
     };
 
-    /// Let the pattern couple what these terms do at these positions, to be asked before each assembly: it depends on nothing else, and
-    /// is renewed where that differs from before.
+    /// Let the pattern contain the couplings of these terms' gaps at these positions. Call it before each assembly. A new pattern
+    /// keeps the couplings of the last one, and has a reserve: gaps up to twice their barrier distance. So pairs that open and
+    /// close do not renew it in each iteration. A call without gaps ends that, and each step begins with one.
     void
     follow_gaps(const Vector &positions, Terms which);
 
@@ -103,7 +104,7 @@ namespace Exemplar
     const PotentialTerms &terms;
     const bool            always_in_parts;
     NodePairs             couplings;     ///< of the terms
-    NodePairs             gap_couplings; ///< of their gaps where the tangent was assembled last
+    NodePairs             gap_couplings; ///< of their gaps in this step, with a reserve; sorted
     SymmetricPattern      pattern;
     std::shared_ptr<const SymmetricPattern>
                  plain;        ///< the pattern without these couplings, if there are any

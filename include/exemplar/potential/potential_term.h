@@ -226,7 +226,7 @@ namespace Exemplar
     }
 
     /// Pairs of nodes, ascending and the lesser node first, that the tangent of a term with gaps couples at these positions beside those
-    /// that share a cell. They are in the pattern while the tangent is assembled there, and not in that of inverses that are kept.
+    /// that share a cell. The pattern of the tangent has them, and that of inverses that are kept has not.
     virtual NodePairs
     couplings_of_gaps(const Vector & /*positions*/) const
     {

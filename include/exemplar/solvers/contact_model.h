@@ -82,6 +82,13 @@ namespace Exemplar
     std::unique_ptr<AlongDirection>
     add_contact(const Vector &positions, const WeightsThere &weights, Direction &direction);
 
+    /// Whether the last direction had more rows of gaps than a dense problem may have.
+    bool
+    has_many_gaps() const
+    {
+      return many_gaps;
+    }
+
     /// The metric ends here.
     void
     forget()
@@ -146,6 +153,7 @@ namespace Exemplar
     RotatedMetric              &metric;
     Lbfgs                      &lbfgs;
     ContactColumns              columns;
+    bool                        many_gaps = false;
 
     /// What the metric alone makes of the body's forces without the examples' changes. From one iteration to the next it follows by
     /// what L-BFGS needs of the last pair, too, so that an iteration takes one solve less.

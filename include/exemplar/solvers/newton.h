@@ -29,9 +29,15 @@ namespace Exemplar
     SolveReport
     solve(State &state, Evaluation &evaluation, double time, double step_size) override;
 
-    /// Solve a step that another method has begun; its report goes on.
+    /// Solve a step that another method has begun, and continue its report. `reached` is a state at the end of the step to
+    /// which that method has come, or null. The iterations start from it: a step in contact can have several equilibria, and
+    /// this state is on the path of the motion. If they do not converge, the step starts again from `state`.
     void
-    take_over(State &state, Evaluation &evaluation, double time, SolveReport &report);
+    take_over(State       &state,
+              const State *reached,
+              Evaluation  &evaluation,
+              double       time,
+              SolveReport &report);
 
     void
     forget() override
@@ -79,6 +85,10 @@ namespace Exemplar
     /// Whether the system's factor was made within the step, or as after a resume.
     bool
     has_factor_of_step(const Trial &trial) const;
+
+    /// Iterate from a state at the end of the step; false, with an undefined `trial`, if that does not converge.
+    bool
+    finish(Trial &trial, Evaluation &evaluation, SolveReport &report);
 
     bool
     advance(Trial       &start,

@@ -215,6 +215,10 @@ namespace Exemplar
     double
     expected_change(const Iteration &iteration, double slope, double length) const;
 
+    /// The slope of the potential along a step at the place of an evaluation.
+    double
+    slope_along(const std::vector<double> &step, const Evaluation &evaluation) const;
+
     /// Go along the step; false, with the trial back at its beginning, if nothing goes downhill.
     bool
     take_step(double slope, State &trial, Evaluation &evaluation, SolveReport &report);
