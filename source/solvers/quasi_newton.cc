@@ -108,7 +108,8 @@ namespace Exemplar
     history.made.reset();
     next = {};
     metric.clear();
-    newton.take_over(state, has_reached ? &trial : nullptr, evaluation, time, report);
+    newton.take_over(state, has_reached && potential.gap_width() > 0. ? &trial : nullptr,
+                     evaluation, time, report);
     return report;
   }
 
@@ -383,7 +384,7 @@ namespace Exemplar
       }
       const Merit now(potential, evaluation);
       if (is_better(now, before, expected_change(memory.iteration, slope, length))
-          || (is_below_rounding(before, length * slope)
+          || (in_contact && is_below_rounding(before, length * slope)
               && is_better_by_slopes(now, before, slope, slope_along(step, evaluation), length)))
         return true;
       if (halving == max_halvings)
