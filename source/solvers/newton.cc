@@ -80,7 +80,7 @@ namespace Exemplar
     if (reached != nullptr)
     {
       Trial trial = { *reached, {}, system.n_factorizations() };
-      if (finish(trial, evaluation, report))
+      if (finish(trial, evaluation, time, report))
       {
         state = std::move(trial.state);
         return;

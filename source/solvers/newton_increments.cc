@@ -61,8 +61,10 @@ namespace Exemplar
   } // namespace
 
   bool
-  Newton::finish(Trial &trial, Evaluation &evaluation, SolveReport &report)
+  Newton::finish(Trial &trial, Evaluation &evaluation, const double time, SolveReport &report)
   {
+    potential.set_time_of_terms(
+        time); // so that friction may be renewed as often as in any solution
     // this trial is near, and what is left are renewals of friction, which take a few iterations each
     try_to([&] { iterate(patience * parameters.maximum_iterations, trial, evaluation, report); },
            report);

@@ -19,7 +19,7 @@ class LiveTest(unittest.TestCase):
     def setUpClass(cls):
         cls.directory = tempfile.TemporaryDirectory()
         cls.scene = Path(cls.directory.name) / "bar.prm"
-        cls.scene.write_text(prm(BAR))
+        cls.scene.write_text(prm({**BAR, "Examples/Energy": "mixed"}))  # so that it comes back when it is released
         cls.server = Server(cls.scene, log=Path(cls.directory.name) / "log.txt")
 
     @classmethod

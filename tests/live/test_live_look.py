@@ -241,6 +241,7 @@ class PhoneTest(PageTest):
         wait(lambda: self.sent("move"))
         self.touch("touchEnd")
         wait(lambda: self.sent("release"))
+        self.page.execute_script("arguments[0].scrollIntoView();", self.find("pause"))
         self.find("pause").click()
         self.find("reset").click()  # as the body swings away
         wait(lambda: not self.find("undo").is_enabled())

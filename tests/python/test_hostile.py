@@ -60,7 +60,7 @@ class HostileTest(unittest.TestCase):
         """A body that passes around an obstacle within a step."""
         for speed in (1e3, 1e9, 1e15):
             problem = made(Initial={"Velocity": [0, 0, -speed]}, Obstacles={"it": {"Shape": "sphere .5 .2 -3 2"}})
-            with self.assertWarnsRegex(UserWarning, "in step [12], more than half of its size"):
+            with self.assertWarnsRegex(UserWarning, "in step [12], more than twice its size"):
                 problem.run()
             self.assertTrue(np.isfinite(problem.positions).all())
 

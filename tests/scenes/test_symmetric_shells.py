@@ -40,6 +40,23 @@ def tube(n, quarters, rows, below):
     return points, triangles
 
 
+def open_hemisphere(n):
+    """Quarter of a hemisphere of radius 10 with a hole of 18 degrees, of n times n squares, and the whole of four mirror images."""
+    angles = [(math.radians(72 * j / n), math.radians(90 * i / n)) for j in range(n + 1) for i in range(n + 1)]
+    quarter = [tuple(round(10. * x, 12) + 0. for x in (math.cos(a) * math.cos(b), math.cos(a) * math.sin(b), math.sin(a))) for a, b in angles]
+    triangles = []
+    for j in range(n):
+        for i in range(n):
+            a = j * (n + 1) + i
+            b, c, d = a + 1, a + n + 2, a + n + 1
+            triangles += [(a, b, c), (a, c, d)] if (i + j) % 2 else [(a, b, d), (b, c, d)]
+    numbers, whole = {}, []
+    for x, y in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
+        of_image = [numbers.setdefault((x * p[0] + 0., y * p[1] + 0., p[2]), len(numbers)) for p in quarter]
+        whole += [tuple(of_image[k] for k in (t if x * y > 0 else t[::-1])) for t in triangles]
+    return (quarter, triangles), (list(numbers), whole)
+
+
 def turned(points, axis):
     """With the axis y where `axis` is."""
     shift = {"y": 0, "z": 1, "x": 2}[axis]
@@ -110,6 +127,25 @@ class Symmetric(SceneTest):
         eighth = self.run_shell("eighth", tube(n, 1, rows, 0), {
             **keys, **planes, "Handles/Names": "x, y, z", "Loads/Names": "up", "Loads/up/Select": at["top"], "Loads/up/Force": f"0; 0; {force / 4}"})
         self.assertGreater(self.compare(eighth, whole, 8.), .3)
+
+    def test_a_quarter_of_an_open_hemisphere_is_pulled_as_the_whole(self):
+        """By two pairs of opposite forces of 400, which move the edge by 0.8 radii (Simo, Fox and Rifai 1990)."""
+        quarter, whole = open_hemisphere(8)
+        keys = {**SHELL, "Scene": "static", "Material/Young's modulus": "6.825e7", "Material/Poisson's ratio": "0.3", "Material/Thickness": "0.04",
+                "Loads/Ramp": "increments", "Time/Increments": "10", "Handles/Names": "x, y, foot", "Handles/x/Select": "box -1e-6 -11 -1 1e-6 11 11",
+                "Handles/x/Components": "x", "Handles/y/Select": "box -11 -1e-6 -1 11 1e-6 11", "Handles/y/Components": "y",
+                "Handles/foot/Select": "box 9.999 -1e-6 -1e-6 11 1e-6 1e-6", "Handles/foot/Components": "z"}
+        places = {"east": (1, 0), "south": (0, 1), "west": (-1, 0), "north": (0, -1)}
+        for name, (x, y) in places.items():
+            keys[f"Loads/{name}/Select"] = " ".join(map(str, ("box", *(10. * c - .001 for c in (x, y, 0)), *(10. * c + .001 for c in (x, y, 0)))))
+        force = {name: f"{{0}}*{x}; {{0}}*{-y}; 0" for name, (x, y) in places.items()}
+        part = self.run_shell("quarter", quarter, {
+            **keys, "Loads/Names": "east, south", "Handles/x/Slopes": "held", "Handles/y/Slopes": "held",
+            **{f"Loads/{name}/Force": force[name].format(200) for name in ("east", "south")},
+            **{f"Loads/{name}/Select": keys[f"Loads/{name}/Select"] if name in ("east", "south") else None for name in places}})
+        result = self.run_shell("whole", whole, {**keys, "Loads/Names": ", ".join(places),
+                                                 **{f"Loads/{name}/Force": force[name].format(400) for name in places}})
+        self.assertGreater(self.compare(part, result, 4.), 8.)
 
     def test_a_plane_of_symmetry_moves_along_its_axis(self):
         """A sheet between two planes, one of which moves outwards, is stretched by a tenth: as one that is pulled at both sides."""

@@ -88,7 +88,7 @@ namespace Exemplar
 
     /// Iterate from a state at the end of the step; false, with an undefined `trial`, if that does not converge.
     bool
-    finish(Trial &trial, Evaluation &evaluation, SolveReport &report);
+    finish(Trial &trial, Evaluation &evaluation, double time, SolveReport &report);
 
     bool
     advance(Trial       &start,

@@ -335,9 +335,9 @@ namespace Exemplar
                                 "the end of the step by more than {} of the greatest. {}",
                                 counted(n_unsettled, "step"), first_unsettled,
                                 allowed_change(problem), how_to_settle(problem)));
-    if (farthest.distance > 0.5 * problem.body.mesh.diameter())
+    if (farthest.distance > 2. * problem.body.mesh.diameter())
       all.push_back(fmt::format(
-          "The body moved by {} m in step {}, more than half of its size. It may pass around an "
+          "The body moved by {} m in step {}, more than twice its size. It may pass around an "
           "obstacle or another body in such a step. Take smaller steps (Time/Step).",
           short_text(farthest.distance), farthest.step));
     for (const auto &warning : { describe_stretched(problem), describe_turned(problem),

@@ -295,7 +295,7 @@ namespace Exemplar
           {
             FilledSurface filled
                 = fill_with(surface, n_cells, keep_edges, near_sheets, gaps, options);
-            remove_slivers(filled.mesh, BoundaryNodes::moved_slightly);
+            remove_slivers(filled.mesh, BoundaryNodes::kept);
             const Judgement now = judge(body, filled.mesh);
             if (is_better(now, best))
               best = { std::move(filled.mesh), now };
@@ -330,6 +330,11 @@ namespace Exemplar
         if (factor == 1. || (is_quick && best.judgement.angles.n_slivers > 0))
           best = best_of_ways(body, surface, factor * options.n_cells, gaps, options,
                               std::move(best));
+      if (best.judgement.angles.n_slivers > 0)
+      {
+        remove_slivers(best.mesh, BoundaryNodes::moved_slightly);
+        best.judgement = judge(body, best.mesh);
+      }
       return best;
     }
   } // namespace
