@@ -61,7 +61,7 @@ SETTERS = {
 }
 
 PROPERTIES = {
-    "mass": "scipy.sparse.csr_array", "handles": "dict[str, NDArray[np.uint32]]", "example_names": "list[str]",
+    "mass": "scipy.sparse.csr_array", "handles": "dict[str, NDArray[np.uint32]]", "example_names": "list[str]", "friction_settled": "bool",
     "obstacles": "dict[str, dict[str, Any]]", "weight_regions": "list[dict[str, Any]]",
     "weights": "NDArray[np.float64]", "history": "NDArray[np.float64]", "gravity": "NDArray[np.float64]",
     "times": "list[float]", "energies": "Measures", "statistics": "Measures", "warnings": "list[str]", "residual_history": "list[float]", "status": "str",

@@ -56,6 +56,7 @@ def look(problem: exemplar.Problem) -> None:
     words: list[str] = [*problem.example_names, *problem.warnings, *problem.handles, *problem.obstacles, *map(str, problem.weight_regions)]
     numbers: list[float] = [problem.time, problem.residual, problem.energies["energy_elastic"], *problem.statistics.values()]
     counts: list[int] = [problem.step_number, problem.n_steps, len(by_node), len(by_cell), len(of_nodes), len(words), len(numbers)]
+    has_settled: bool = problem.friction_settled
     measures: exemplar.Measures = problem.energies
     if problem.velocities is not None:
         by_node.append(problem.velocities)
